@@ -240,6 +240,12 @@ void scale_probability(double factor, Cause& cause) {
   for (Partner& partner : cause.partners) partner.probability *= factor;
 }
 
+void sort_after_first(std::vector<Cause>& causes) {
+  if (causes.empty()) return;
+  std::stable_sort(std::next(causes.begin()), causes.end(),
+                   [](const Cause& a, const Cause& b) { return a.probability > b.probability; });
+}
+
 double probability_of(const Findings& findings, const std::string& name) {
   const auto at = findings.probability.find(name);
   return at == findings.probability.end() ? 0.0 : at->second;

@@ -44,6 +44,10 @@ struct Diagnosis : Findings {
 /// Multiplies all probabilities of a cause.
 void scale_probability(double factor, Cause& cause);
 
+/// Orders causes by their probability, but for the first: what is said of it alone (whether it acts alone, what speaks
+/// against it) belongs to the likeliest hypothesis.
+void sort_after_first(std::vector<Cause>& causes);
+
 /// Probability of "none", "unknown" or an effect; 0 where it was not in the comparison.
 double probability_of(const Findings& findings, const std::string& name);
 

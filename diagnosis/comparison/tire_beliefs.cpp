@@ -111,8 +111,7 @@ void average_over_beliefs(const Beliefs& beliefs, std::map<std::string, double>&
     const double averaged = average(cause.probability, sum_of_cause(other.comparison, cause));
     if (cause.probability > 0.0) scale_probability(averaged / cause.probability, cause);
   }
-  std::stable_sort(causes.begin(), causes.end(),
-                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  sort_after_first(causes);
 }
 
 }  // namespace rollrig::diagnosis

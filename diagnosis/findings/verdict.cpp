@@ -147,7 +147,8 @@ bool lies_beyond_range(const Model& model, const Candidate& candidate, const Own
 /// What speaks against a candidate.
 struct Objection {
   std::string text;
-  double kept = 1.0;              // share of truths among causes with it
+  double kept = 1.0;              // share of truths among causes with it,
+  double kept_confirmed = 1.0;    // and among those of them that data left out clearly confirm
   const Term* unusual = nullptr;  // term with a parameter far out in its prior
 };
 
@@ -158,8 +159,8 @@ std::vector<Objection> find_objections(const Study& study, const Candidate& cand
     const double gain_nats = candidate.log_discrepancy - candidate.log_evidence;
     const std::string by =
         gain_nats < kBeyondDoubt_nats ? fmt::format("{:.0f} nats likelier", gain_nats) : "likelier beyond all doubt";
-    objections.push_back(
-        {"something else is missing: a free discrepancy on top of it is " + by, thresholds::kKeptRemainder});
+    objections.push_back({"something else is missing: a free discrepancy on top of it is " + by,
+                          thresholds::kKeptRemainder, thresholds::kKeptRemainder});
   }
   const Model model = study.make_model(candidate.fit.hypothesis);
   const OwnPosterior posterior = find_own_posterior(study, candidate, model.own_count());
@@ -171,23 +172,24 @@ std::vector<Objection> find_objections(const Study& study, const Candidate& cand
       objections.push_back(
           {fmt::format("{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", key,
                        own.term->name(), own.value_at(u).value_SI / unit_of_key(key).factor, std::abs(u)),
-           thresholds::kKeptUnusual, own.term});
+           thresholds::kKeptUnusual, thresholds::kKeptConfirmed, own.term});
     }
     if (own.is_size() && lies_beyond_range(model, candidate, posterior, i)) {
       objections.push_back(
           {fmt::format("{} of {} would have to lie beyond its range ({}); the best within it is {:.3g}", key,
                        own.term->name(), own.declared->range.to_string(),
                        own.value_at(u).value_SI / unit_of_key(key).factor),
-           thresholds::kKeptBeyondRange});
+           thresholds::kKeptBeyondRange, thresholds::kKeptBeyondRange});
     }
     if (own.is_size() &&
         differs_between_runs(study, candidate, i, thresholds::kRunSizeShare * distance_from_off(own, u))) {
-      objections.push_back({fmt::format("its size ({}) differs from run to run", key), thresholds::kKeptRunSize});
+      objections.push_back({fmt::format("its size ({}) differs from run to run", key), thresholds::kKeptRunSize,
+                            thresholds::kKeptRunSize});
     }
   }
   if (const std::string moved = describe_far_moves(study, candidate.fit); !moved.empty()) {
-    objections.push_back(
-        {"with it, numbers of the files would have to be wrong: they move by " + moved, thresholds::kKeptWrongFiles});
+    objections.push_back({"with it, numbers of the files would have to be wrong: they move by " + moved,
+                          thresholds::kKeptWrongFiles, thresholds::kKeptConfirmed});
   }
   return objections;
 }
@@ -208,6 +210,7 @@ void put_objections(const Study& study, const Candidate& lead, Cause& cause) {
   for (const Objection& objection : objections) {
     (companion != nullptr ? cause.companions : cause.objections).push_back(objection.text);
     cause.kept = std::min(cause.kept, objection.kept);
+    cause.kept_confirmed = std::min(cause.kept_confirmed, objection.kept_confirmed);
   }
   if (companion == nullptr) return;
   const std::string& name = companion->name();
@@ -274,10 +277,18 @@ bool is_open_beside(const Candidate& lead, const Candidate& other) {
 /// is hardly above the noise, or where few runs are judged.
 bool is_confirmed_otherwise(const Gap& gap) {
   if (!(gap.left_out_nats.value_or(0.0) >= thresholds::kConfirmed_nats)) return false;
+  if (gap.recalibrated.before < thresholds::kFaintGap_floors) return true;
   if (*gap.shrink_percent >= thresholds::kClearShrink_percent) return true;
   if (gap.judged_by != JudgedBy::kRuns || !gap.stretches.has_value()) return false;
   const Shrinkage& stretches = *gap.stretches;
   return stretches.percent.value_or(0.0) >= thresholds::kClearShrink_percent && stretches.ci95_percent[0] > 0.0;
+}
+
+/// Whether a cause takes a clear part of the gap of what was left out, and makes that likelier: it predicts new data,
+/// whatever its law or the files have to look like for that.
+bool is_clearly_confirmed(const Gap& gap) {
+  return gap.left_out_nats.value_or(0.0) >= thresholds::kConfirmed_nats && gap.shrink_percent.has_value() &&
+         gap.shrink_ci95_percent[0] >= thresholds::kClearShrink_percent;
 }
 
 }  // namespace
@@ -363,8 +374,7 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
     cause.adequate = cause.objections.empty();
     causes.push_back(std::move(cause));
   }
-  std::stable_sort(causes.begin(), causes.end(),
-                   [](const Cause& a, const Cause& b) { return a.probability > b.probability; });
+  sort_after_first(causes);
   return causes;
 }
 
@@ -380,6 +390,7 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
   if (causes.empty()) return;
   Cause& first = causes.front();
   const char* parts = gap.judged_by == JudgedBy::kStretches ? "stretches" : "runs";
+  if (is_clearly_confirmed(gap)) first.kept = first.kept_confirmed;
   if (gap.worse_where_certain) {
     first.objections.push_back(fmt::format("it makes the {} that were left out worse, not better", parts));
     first.kept = std::min(first.kept, thresholds::kKeptUnconfirmed);

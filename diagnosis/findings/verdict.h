@@ -23,7 +23,7 @@ double expected_log_bayes_factor(const Study& study, const Candidate& a, const C
 std::vector<std::string> find_named_beside(const std::vector<std::string>& lead, double lead_weight,
                                            std::map<std::string, double> beside);
 
-/// Causes from the likeliest down; the first has those effects of the likeliest hypothesis that act with at least half
+/// Causes: that of the likeliest hypothesis, then the others from the likeliest down. The first has those effects of the likeliest hypothesis that act with at least half
 /// of the probability that any of them acts. Hypotheses whose expected log Bayes factor on this set is below 3 are one
 /// cause, named after the likeliest of them; those that the set has told from it already, posterior below e^-3 of the
 /// lead's (the same prediction, but with parameters that are most unusual), are not listed beside it. Of a set of more

@@ -10,6 +10,10 @@ namespace {
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json number(const std::optional<double>& value) { return value.has_value() ? number(*value) : Json(nullptr); }
 
+/// A number that must exist: to_text() refuses one that is not finite.
+Json finite(double value) { return value; }
+Json finite(const std::optional<double>& value) { return value.has_value() ? Json(*value) : Json(nullptr); }
+
 /// The limit on which an estimate is: lower or upper; else null.
 Json make_limit(RangeLimit limit) {
   if (limit == RangeLimit::kNone) return nullptr;
@@ -45,17 +49,17 @@ Json make_change(const std::optional<CauseChange>& change) {
 }
 
 Json make_partner(const Partner& partner) {
-  return {{"effect", partner.effect}, {"probability", number(partner.probability)}};
+  return {{"effect", partner.effect}, {"probability", finite(partner.probability)}};
 }
 
 Json make_cause(const Cause& cause) {
   return {{"effects", cause.effects},
-          {"probability", number(cause.probability)},
+          {"probability", finite(cause.probability)},
           {"indistinguishable_from", cause.indistinguishable_from},
           {"parameters", make_list(cause.parameters, make_parameter)},
-          {"acts", number(cause.acts)},
-          {"alone", number(cause.alone)},
-          {"complete", number(cause.complete)},
+          {"acts", finite(cause.acts)},
+          {"alone", finite(cause.alone)},
+          {"complete", finite(cause.complete)},
           {"partners", make_list(cause.partners, make_partner)},
           {"adequate", cause.adequate},
           {"objections", cause.objections},
@@ -119,7 +123,7 @@ Json make_location(const Location& at) {
 
 Json make_likeness(const std::optional<Likeness>& like) {
   if (!like.has_value()) return nullptr;
-  return {{"text", like->text}, {"probability", number(like->probability)}, {"beside", like->beside}};
+  return {{"text", like->text}, {"probability", finite(like->probability)}, {"beside", like->beside}};
 }
 
 Json make_lone_run(const std::optional<LoneRun>& lone) {
@@ -128,7 +132,7 @@ Json make_lone_run(const std::optional<LoneRun>& lone) {
           {"share_percent", number(lone->share_percent)},
           {"verdict", name_of(lone->verdict)},
           {"effects", lone->effects},
-          {"probability", number(lone->probability)}};
+          {"probability", finite(lone->probability)}};
 }
 
 }  // namespace
@@ -147,7 +151,7 @@ Verdict read_verdict(const std::string& word) {
 
 Json make_diagnosis_json(const Findings& findings) {
   Json probability = Json::object();
-  for (const auto& [name, value] : findings.probability) probability[name] = number(value);
+  for (const auto& [name, value] : findings.probability) probability[name] = finite(value);
   const auto make_balance = [](const BalanceShare& share) -> Json {
     return {{"name", share.name}, {"share_percent", number(share.share_percent)}};
   };
@@ -167,7 +171,7 @@ Json make_diagnosis_json(const Findings& findings) {
           {"set", findings.set},
           {"verdict", name_of(findings.verdict)},
           {"probability", probability},
-          {"nothing_detectable", number(findings.nothing_detectable)},
+          {"nothing_detectable", finite(findings.nothing_detectable)},
           {"causes", make_list(findings.causes, make_cause)},
           {"trace", findings.trace.has_value() ? make_cause(*findings.trace) : Json(nullptr)},
           {"unknown_like", make_likeness(findings.unknown_like)},

@@ -36,7 +36,8 @@ struct Cause {
   std::vector<ParameterEstimate> parameters;
   bool adequate = true;
   std::vector<std::string> objections;               // why not adequate, a sentence each
-  double kept = 1.0;                                 // share of its probability that the objections leave
+  double kept = 1.0;                                 // share of its probability that the objections leave,
+  double kept_confirmed = 1.0;                       // and where the data left out clearly confirm it
   std::vector<std::string> companions = {};          // of the best fit, not named since they would be most unusual: why
   std::optional<CauseChange> change = std::nullopt;  // of the first cause, and of a trace
   std::optional<double> acts = std::nullopt;         // of the first cause: that all its effects act, alone or not;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "sim/core/error.h"
 #include "tests/diagnosis/hand_made.h"
 
 using namespace rollrig;
@@ -109,6 +110,16 @@ TEST_CASE("a trace has what a cause has, and what it changes", "[fast]") {
   CHECK(trace["change"]["floors"] == 0.12);
   CHECK(trace["change"]["energy_percent"] == 0.07);
   CHECK(diagnosis::make_diagnosis_json(tests::make_explained())["causes"][0]["change"].is_null());
+}
+
+TEST_CASE("a probability that is no number is a failure, not null", "[fast]") {
+  diagnosis::Diagnosis made = tests::make_explained();
+  CHECK_NOTHROW(to_text(diagnosis::make_diagnosis_json(made)));
+  made.causes.front().complete = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(to_text(diagnosis::make_diagnosis_json(made)), RunFailure);
+  made = tests::make_explained();
+  made.probability["none"] = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(to_text(diagnosis::make_diagnosis_json(made)), RunFailure);
 }
 
 TEST_CASE("without a gap there is no shrinkage, and lists are empty, not absent", "[fast]") {

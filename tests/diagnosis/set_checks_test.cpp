@@ -69,7 +69,7 @@ TEST_CASE("runs of next to no samples are warned of", "[fast]") {
 }
 
 TEST_CASE("no effect of the catalog makes a set look like a mistake", "[slow]") {
-  constexpr int kDraws = 20;
+  constexpr int kDraws = 8;
   int sets = 0;
   int stopped = 0;
   for (const models::Effect* effect : models::all_effects()) {

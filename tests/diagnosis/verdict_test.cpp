@@ -98,9 +98,16 @@ TEST_CASE("a cause that the runs left out do not confirm is no explanation", "[f
   gap.shrink_ci95_percent = {-2.0, 100.0};
   CHECK(judge(gap) == Verdict::kUnexplained);
   gap.left_out_nats = 50.0;
+  gap.recalibrated.before = 1.2;
   CHECK(judge(gap) == Verdict::kExplained);
   gap.shrink_percent = 12.0;
   CHECK(judge(gap) == Verdict::kUnexplained);
+  gap.recalibrated.before = 0.4;  // so faint that a shrinkage says nothing
+  CHECK(judge(gap) == Verdict::kExplained);
+  gap.worse_where_certain = true;
+  CHECK(judge(gap) == Verdict::kUnexplained);
+  gap.worse_where_certain = false;
+  gap.recalibrated.before = 1.2;
   gap.judged_by = JudgedBy::kRuns;  // which do not decide, where the stretches do
   gap.stretches = Shrinkage{{1.2, 0.65}, 46.0, {31.0, 61.0}, std::nullopt};
   CHECK(judge(gap) == Verdict::kExplained);
@@ -112,6 +119,43 @@ TEST_CASE("a cause that the runs left out do not confirm is no explanation", "[f
   CHECK(judge(gap) == Verdict::kExplained);
   gap.left_out_nats = 2.0;
   CHECK(judge(gap) == Verdict::kUnexplained);
+}
+
+TEST_CASE("a cause that predicts what was left out keeps more, whatever its law or the files have to look like",
+          "[fast]") {
+  using namespace rollrig::diagnosis;
+  const auto judge = [](double low_percent, double nats) {
+    Gap gap;
+    gap.judged_by = JudgedBy::kRuns;
+    gap.shrink_percent = 70.0;
+    gap.shrink_ci95_percent = {low_percent, 90.0};
+    gap.left_out_nats = nats;
+    Cause cause;
+    cause.effects = {"a"};
+    cause.probability = 0.9;
+    cause.kept = 0.5;
+    cause.kept_confirmed = 0.7;
+    std::vector<Cause> causes{cause};
+    std::map<std::string, double> probability{{"none", 0.05}, {"unknown", 0.05}, {"a", 0.9}};
+    weigh_objections(gap, causes, probability);
+    return causes.front().probability;
+  };
+  CHECK(judge(50.0, 100.0) == Approx(0.9 * 0.7));
+  CHECK(judge(20.0, 100.0) == Approx(0.9 * 0.5));
+  CHECK(judge(50.0, 1.0) == Approx(0.9 * 0.5));  // hardly likelier
+}
+
+TEST_CASE("the cause of the likeliest hypothesis stays first, the others follow by probability", "[fast]") {
+  using namespace rollrig::diagnosis;
+  std::vector<Cause> causes(4);
+  const double probability[] = {0.4, 0.1, 0.5, 0.2};
+  for (std::size_t i = 0; i < causes.size(); ++i) causes[i].probability = probability[i];
+  sort_after_first(causes);
+  std::vector<double> sorted;
+  for (const Cause& cause : causes) sorted.push_back(cause.probability);
+  CHECK(sorted == std::vector<double>{0.4, 0.5, 0.2, 0.1});
+  causes.clear();
+  CHECK_NOTHROW(sort_after_first(causes));
 }
 
 TEST_CASE("what an objection says names the parts that were left out", "[fast]") {
