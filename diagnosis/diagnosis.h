@@ -44,8 +44,8 @@ struct Diagnosis : Findings {
 /// Multiplies all probabilities of a cause.
 void scale_probability(double factor, Cause& cause);
 
-/// Orders causes by their probability, but for the first: what is said of it alone (whether it acts alone, what speaks
-/// against it) belongs to the likeliest hypothesis.
+/// Orders causes by their probability, but for the first: only of this one it is known whether it acts alone and what
+/// speaks against it.
 void sort_after_first(std::vector<Cause>& causes);
 
 /// Probability of "none", "unknown" or an effect; 0 where it was not in the comparison.

@@ -291,6 +291,14 @@ bool is_clearly_confirmed(const Gap& gap) {
          gap.shrink_ci95_percent[0] >= thresholds::kClearShrink_percent;
 }
 
+/// Place of the cause that comes first: the most probable one, unless it is a part of the first in the list, which
+/// belongs to the likeliest hypothesis.
+std::ptrdiff_t find_first(const std::vector<Cause>& causes) {
+  const auto most = std::max_element(causes.begin(), causes.end(),
+                                     [](const Cause& a, const Cause& b) { return a.probability < b.probability; });
+  return contains_all(causes.front().effects, most->effects) ? 0 : most - causes.begin();
+}
+
 }  // namespace
 
 double expected_log_bayes_factor(const Study& study, const Candidate& a, const Candidate& b) {
@@ -340,6 +348,7 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
   std::stable_sort(left.begin(), left.end(),
                    [](const Candidate* a, const Candidate* b) { return a->posterior() > b->posterior(); });
   std::vector<Cause> causes;
+  std::vector<const Candidate*> leads;
   std::set<const Candidate*> taken;
   for (const Candidate* lead : left) {
     if (taken.count(lead) > 0) continue;
@@ -367,13 +376,15 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
     cause.indistinguishable_from = find_named_beside(cause.effects, lead->posterior(), std::move(beside));
     cause.complete = sum_named_whole(alike, cause);
     cause.parameters = estimate_parameters(study, *lead);
-    if (causes.empty()) {
-      find_partners(comparison, *lead, cause);
-      put_objections(study, *lead, cause);
-    }
-    cause.adequate = cause.objections.empty();
     causes.push_back(std::move(cause));
+    leads.push_back(lead);
   }
+  if (causes.empty()) return causes;
+  const std::ptrdiff_t first = find_first(causes);
+  find_partners(comparison, *leads[static_cast<std::size_t>(first)], causes[static_cast<std::size_t>(first)]);
+  put_objections(study, *leads[static_cast<std::size_t>(first)], causes[static_cast<std::size_t>(first)]);
+  for (Cause& cause : causes) cause.adequate = cause.objections.empty();
+  std::rotate(causes.begin(), causes.begin() + first, causes.begin() + first + 1);
   sort_after_first(causes);
   return causes;
 }
