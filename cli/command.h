@@ -75,7 +75,7 @@ struct ComparisonOptions {
   std::vector<std::string> without;
 
   void add_to(CLI::App& command);
-  /// Throws InputError: an effect that there is not, with the nearest; one that is asked for and left out.
+  /// Throws InputError: an effect that does not exist, with the nearest; one that is asked for and left out.
   void check() const;
 };
 

@@ -132,14 +132,15 @@ void add_diagnose_command(CLI::App& app, Action& action) {
   command->add_option("set", options->set, "Folder of a measurement set, or its set.toml; or a folder of such folders");
   command->add_option("--explain", options->explain,
                       "Tell of an effect instead: equation, source, priors, what reveals it, what it is confused with, "
-                      "which test splits them; also none, unknown");
+                      "which tests separate them; also none, unknown");
   options->output.add_to(*command, "File for the diagnosis, - for standard output");
   add_output_option(*command, "--plan", options->plan,
                     "Folder for the first proposed next test as run files, with a plan for a person");
   command->add_flag("--force", options->force, "Write the plan into a folder that holds files");
   add_output_option(*command, "--loop", options->loop,
-                    "Folder of a loop of tests: reads what its planned test measured, diagnoses, plans the next "
-                    "test, until a cause is at 95 % or the hours are gone");
+                    "Folder of a loop of tests: reads what its planned test measured, diagnoses, plans the next test. "
+                    "The loop ends when a cause has 95 % and acts alone with 90 %, when the hours are used up, or when "
+                    "no test tells more");
   command->add_option("--hours", options->hours, "Hours of the machine that the loop may take [8]");
   command->add_flag("--test-failed", options->test_failed,
                     "The planned test of the loop could not be done; its hours count all the same");

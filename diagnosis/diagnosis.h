@@ -51,7 +51,7 @@ void sort_after_first(std::vector<Cause>& causes);
 /// Probability of "none", "unknown" or an effect; 0 where it was not in the comparison.
 double probability_of(const Findings& findings, const std::string& name);
 
-/// Throws InputError for the first effect of `without` or `only` that there is not.
+/// Throws InputError for the first effect of `without` or `only` that does not exist.
 void require_known_effects(const DiagnosisOptions& options);
 
 /// The diagnosis of a measurement set of any kind, against either baseline.

@@ -11,7 +11,7 @@ namespace rollrig::diagnosis {
 /// Probabilities before the measurement (docs/how_the_diagnosis_reasons.md, "Which hypotheses are compared");
 /// what a kind has is shared evenly.
 /// Assumed: of ten sets four without a cause; where there is one, a second effect in one of four sets and a third in
-/// one of twenty; 9 % for a cause outside the catalog, in all.
+/// one of twenty-four; 9 % for a cause outside the catalog, in all.
 struct ComparisonPriors {
   double none = 0.42;
   double singles = 0.35;
@@ -67,7 +67,8 @@ constexpr double kTail_sd = 3.0;         // Assumed: 3 draws of a prior in 1000;
 constexpr double kBeyondRange_sd = 2.0;  // Assumed: so far beyond its range a size is an objection
 constexpr double kFarMoveChance = 0.01;  // Assumed: that any number of right files moves as far as an objection needs
 constexpr double kStrained_sd = 1.5;     // Assumed: moves of a tire's numbers from which class values are tried
-constexpr double kClassTire = 0.99;  // Assumed: that numbers are a class's where no uncertainty nor origin is stated
+constexpr double kClassTirePrior =
+    0.99;  // Assumed: that numbers are a class's where no uncertainty nor origin is stated
 constexpr double kRunSizeChance = 1e-3;  // Assumed: of the test whether the size is one in all runs ...
 constexpr double kRunSizeShare = 0.3;    // ... by which a law's idealization may change it from run to run
 // Of a cause's probability, by what speaks against it; the rest goes to "unknown". The share of truths among causes
@@ -79,7 +80,7 @@ constexpr double kKeptRemainder = 0.1;         // of 35 with something else miss
 constexpr double kKeptBeyondRange = 0.05;      // Assumed: no such truth was seen
 constexpr double kKeptWrongFiles = 0.3;        // Assumed: both of 2, and none in the earlier sets
 constexpr double kKeptConfirmed = 0.7;         // of 5 with either of these two, but confirmed by data left out, 4
-constexpr double kKeptUnconfirmed = 0.45;      // 6 of 9, and never enough for "explained"
+constexpr double kKeptUnconfirmed = 0.45;      // Assumed: below one half, so never "explained"; 6 of 9 were true
 constexpr double kKeptHardlyLikelier = 0.5;    // 5 of 10: still the likeliest, and not explained
 constexpr double kClearShrink_percent = 33.0;  // Assumed: what confirms a cause whose interval the noise makes wide
 // Of a smaller gap the likelihood alone says whether a cause is confirmed. Assumed: in 142 answers to a fourth mixed

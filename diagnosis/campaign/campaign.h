@@ -33,8 +33,9 @@ measurements::MeasurementSet make_usual_set(const CampaignInput& input);
 /// or as many with a higher value. No test is done twice; its hours are those of the menu: set-up, soaks and runs.
 ///
 /// Equation  value = sum over effects of P(|x - off| >= |m - off| 5/d') + 0.1 min(1, d'/5)
-/// Symbols   x an effect's size, distributed by its prior; m the size at which it is judged (list_judged_sizes); off the
-///           size at which it does nothing; d' its detectability at m. Of several m, the one with the lowest d' counts
+/// Symbols   x an effect's size, distributed by its prior; m the size at which it is judged (list_judged_sizes); off
+///           the size at which it does nothing; d' its detectability at m. Of several m, the one with the lowest d'
+///           counts
 /// Validity  linear in the size; a visible effect may still be taken for another one. Assumed: the 0.1, so that tests
 ///           count that bring an effect nearer to being visible
 /// Errors    InputError: an unknown effect; hours out of range, or too few for any test

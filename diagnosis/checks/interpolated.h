@@ -20,8 +20,7 @@ struct Interpolated {
 ///           the cubic through four. A stretch has n >= max(10, ln(10^4 N)/-ln q) smooth rows, and the rows beside it
 ///           deviate from such lines by three times the limit and by 0.1 times what the noise of the sensor makes
 /// Symbols   r step of the column's numbers in the file, and 0.02 of its usual deviation at least; N rows of the column
-/// in the set, q the share of them that is
-///           smooth, those left out where all three numbers are the same
+///           in the set; q the share of them that is smooth, those left out where all three numbers are the same
 /// Validity  A column without scatter of its own tells nothing: a speed held by a controller, a temperature rounded to
 ///           tenths, a simulated set without noise. A stretch at one number is for stuck_sensors.h.
 /// Left out  The measured samples of the stretch. Where a given column (such as the speed on the road) is smooth as

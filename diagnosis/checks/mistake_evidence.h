@@ -17,13 +17,13 @@ constexpr std::array<double, 7> kSizeWeights{0.2, 0.2, 0.2, 0.2, 0.13, 0.06, 0.0
 /// The likelihood of a channel is raised to the power 0.5: samples that all lack the same part of the physics are less
 /// independent than their noise.
 /// Equation  y - h = B (m + a) + b + n;  a ~ N(0, s^2),  b ~ N(0, offset_sd^2),  n ~ k N(0, C),  summed over k
-/// Symbols   y measured, h simulated; m common parts of all runs; a amplitudes of the other parts; s size, half of it if
-///           common parts are given; b sensor offset, n noise. Columns of B (mistake_unknowns.h): the tolerance of the
-///           channel at rest, also fading over 10 min or in proportion to speed; its share of the change of h from
-///           rest, also fading or in proportion to speed or load; of temperatures and pressures, a lag. If the kind of
-///           set lists unknown forces, a force has these instead of the share, with sizes that do not depend on s. C
-///           covariance of drift and noise of the sensor; k 1 to 50, for what B leaves, with a probability in
-///           proportion to 1/k^2
+/// Symbols   y measured, h simulated; m common parts of all runs; a amplitudes of the other parts; s size, half of it
+///           if common parts are given; b sensor offset; n noise; C covariance of drift and noise of the sensor; k 1 to
+///           50, for what B leaves, with a probability in proportion to 1/k^2.
+///           Columns of B (mistake_unknowns.h): the tolerance of the channel at rest, also fading over 10 min or in
+///           proportion to speed; its share of the change of h from rest, also fading or in proportion to speed or
+///           load; of temperatures and pressures, a lag. If the kind of set lists unknown forces, a force has these
+///           instead of the share, with sizes that do not depend on s
 /// Validity  the scatter of numbers in another unit is not counted here, since the noise that a set states may be a
 ///           guess. Samples are averaged over 20 s; not on the road, where every change of speed counts
 /// Source    Assumed: B, the values of k and their probabilities

@@ -60,7 +60,7 @@ std::string describe(const MeasurementSet& set, const FoundMistake& found) {
     others.push_back(fmt::format("{} ({})", other, show_percent(probability)));
   }
   text += ", or " + fmt::format("{}", fmt::join(others, ", or "));
-  return found.probability < kNamed ? text + ", which this set cannot tell apart" : text;
+  return found.probability < kNamed ? text + ", which this set cannot separate" : text;
 }
 
 }  // namespace rollrig::diagnosis

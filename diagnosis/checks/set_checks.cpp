@@ -70,7 +70,7 @@ void require_simulated(const MeasurementSet& set, const std::vector<RunMisfit>& 
 /// Names what cannot be true in some runs.
 void report_suspicion(const std::string& suspicion, const std::vector<std::size_t>& runs, SetChecks& checks) {
   checks.suspicion += (checks.suspicion.empty() ? "" : "; ") + suspicion;
-  checks.doubt = checks.suspicion + ": no cause is named until that is mended";
+  checks.doubt = checks.suspicion + ": no cause is named until that is corrected";
   checks.mistaken_runs.insert(checks.mistaken_runs.end(), runs.begin(), runs.end());
   std::sort(checks.mistaken_runs.begin(), checks.mistaken_runs.end());
   const auto end = std::unique(checks.mistaken_runs.begin(), checks.mistaken_runs.end());

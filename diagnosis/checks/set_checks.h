@@ -24,9 +24,10 @@ struct SetChecks {
 /// Looks at a set before it is diagnosed.
 ///
 /// Warns of what samples tell by themselves (sample_checks.h) and of what tire_checks.h says. Marks rows of stuck
-/// sensors (stuck_sensors.h) and samples that stand alone. Marks a set implausible when one mistake with columns or
-/// units, undone, takes nine tenths of what is odd in it (repairs.h), or when a channel of a run lies far outside what
-/// uncertain parameters and effects of the catalog can make (plausibility.h).
+/// sensors (stuck_sensors.h) and samples that stand alone. Marks a set implausible if a run has a mistake with columns
+/// or units with a probability of at least 90 % (mistakes.h), if an input is constant that should vary
+/// (still_inputs.h), or if a channel of a run lies far outside what uncertain parameters and effects of the catalog can
+/// make (plausibility.h).
 /// Validity  a wrong tire of the same class is warned of at most: its loss lies within what an effect can make
 /// Errors    InputError: nothing measured; a sensor without any noise; every sensor stuck;
 ///           a run that cannot be simulated

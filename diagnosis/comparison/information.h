@@ -16,8 +16,9 @@ struct PredictedOutcome {
 double calc_overlap_distance_nats(const PredictedOutcome& a, const PredictedOutcome& b);
 
 /// Expected fall of the entropy of "which hypothesis is true", from below.
-/// Equation  I >= -sum_i w_i ln sum_j w_j exp(-B_ij), B the distance of Bhattacharyya
-/// Symbols   w probabilities of the hypotheses before the test
+/// Equation  I >= -sum_i w_i log2 sum_j w_j exp(-D_ij)
+/// Symbols   I information, bits; w probabilities of the hypotheses before the test; D distance of Bhattacharyya
+///           (calc_overlap_distance_nats), nats
 /// Validity  0 where all predict the same, the entropy of w where no two overlap, never above it
 /// Source    Kolchinsky and Tracey, Entropy 19, 361 (2017), equation 10 with alpha = 1/2
 /// Checked   tests/diagnosis/next_test_test.cpp

@@ -35,7 +35,7 @@ double find_prior(const StudySettings& settings, std::size_t terms);
 double find_prior(const StudySettings& settings, const Hypothesis& hypothesis);
 
 /// Probability that an effect fitted beside others is an error of their laws and does not act.
-/// Equation  P = o/(1 + o), o = 2 exp(-(g/15)^2/2)
+/// Equation  P = o/(1 + o), o = 1.5 exp(-(g/15)^2/2)
 /// Symbols   g >= 0 gain of log evidence by the effect, nats (below 0: as 0)
 /// Source    Assumed: thresholds.h, kLawErrorOdds
 /// Checked   tests/diagnosis/model_comparison_test.cpp

@@ -73,7 +73,7 @@ Beliefs compare_beliefs(const measurements::MeasurementSet& measured, const Stud
   Belief of_class = compare(measured, wide);
   of_class.study->settings.stages = settings.stages;
   const double log_odds = of_class.comparison.log_evidence - identified.comparison.log_evidence +
-                          std::log(thresholds::kClassTire / (1.0 - thresholds::kClassTire));
+                          std::log(thresholds::kClassTirePrior / (1.0 - thresholds::kClassTirePrior));
   const double class_weight = 1.0 / (1.0 + std::exp(-log_odds));
   if (class_weight > 0.5) std::swap(beliefs.likelier, of_class);
   beliefs.weight = std::max(class_weight, 1.0 - class_weight);

@@ -19,8 +19,8 @@ struct OpenHypothesis {
 /// - unless it is the baseline, those that the set cannot tell from it (verdict.h), all as likely as it: that is the
 ///   question to be split,
 /// - the runners-up from a probability of 0.01,
-/// - where that leaves nothing but it, or where it is the baseline: it with one more term that the set would not have
-///   shown, at the middle of its prior, as uncertain as the set leaves it.
+/// - where that leaves nothing but it, or where it is the baseline: it with one more term whose detectability in this
+///   set is below 3 standard deviations (Assumed), at the middle of its prior, as uncertain as the set leaves it.
 /// No hypothesis counts for less than a twentieth of the likeliest. One sign of a term stands for both.
 /// Source  Assumed: six, nine, a twentieth and 0.01, which keep what matters in a named set of at most three
 /// Checked tests/diagnosis/next_test_test.cpp

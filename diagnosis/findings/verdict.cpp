@@ -291,12 +291,12 @@ bool is_clearly_confirmed(const Gap& gap) {
          gap.shrink_ci95_percent[0] >= thresholds::kClearShrink_percent;
 }
 
-/// Place of the cause that comes first: the most probable one, unless it is a part of the first in the list, which
-/// belongs to the likeliest hypothesis.
-std::ptrdiff_t find_first(const std::vector<Cause>& causes) {
+/// The cause that comes first: the most probable one, unless it is a part of the first in the list, which belongs to
+/// the likeliest hypothesis.
+std::vector<Cause>::iterator find_first(std::vector<Cause>& causes) {
   const auto most = std::max_element(causes.begin(), causes.end(),
                                      [](const Cause& a, const Cause& b) { return a.probability < b.probability; });
-  return contains_all(causes.front().effects, most->effects) ? 0 : most - causes.begin();
+  return contains_all(causes.front().effects, most->effects) ? causes.begin() : most;
 }
 
 }  // namespace
@@ -380,11 +380,12 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
     leads.push_back(lead);
   }
   if (causes.empty()) return causes;
-  const std::ptrdiff_t first = find_first(causes);
-  find_partners(comparison, *leads[static_cast<std::size_t>(first)], causes[static_cast<std::size_t>(first)]);
-  put_objections(study, *leads[static_cast<std::size_t>(first)], causes[static_cast<std::size_t>(first)]);
-  for (Cause& cause : causes) cause.adequate = cause.objections.empty();
-  std::rotate(causes.begin(), causes.begin() + first, causes.begin() + first + 1);
+  const auto first = find_first(causes);
+  const Candidate& lead = *leads[static_cast<std::size_t>(first - causes.begin())];
+  find_partners(comparison, lead, *first);
+  put_objections(study, lead, *first);
+  first->adequate = first->objections.empty();
+  std::rotate(causes.begin(), first, first + 1);
   sort_after_first(causes);
   return causes;
 }

@@ -47,13 +47,15 @@ void move_probability(const Cause& cause, double moved, const std::string& to,
 /// often.
 void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::string, double>& probability);
 
-/// Effects that this set need not show: detectable at less than 5 standard deviations at the middle of their prior,
-/// or left with e^-3 of the likeliest hypothesis's probability or more; and not named.
+/// Effects that are not named and may act all the same: detectable at less than 5 standard deviations at the middle of
+/// their prior, or with a probability of at least e^-3 times that of "none" or of the most probable cause, whichever is
+/// larger.
 std::vector<std::string> find_not_excluded(const Study& study, const Comparison& comparison,
                                            const std::vector<Cause>& causes);
 
-/// No gap where none is likelier than unknown and than the first cause; of a cause of more than three effects, which
-/// names nothing, than each effect. Unexplained where unknown is the likeliest, or the first cause is not adequate.
+/// No gap if "none" is likelier than "unknown" and than the first cause; if that has more than three effects, and so
+/// names nothing, than each of its effects. Otherwise unexplained if "unknown" is at least as probable as the first
+/// cause, else explained. Objections count through the probabilities that weigh_objections() has moved.
 Verdict find_verdict(const std::map<std::string, double>& probability, const std::vector<Cause>& causes);
 
 }  // namespace rollrig::diagnosis

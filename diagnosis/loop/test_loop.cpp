@@ -27,7 +27,6 @@ std::string test_folder(const std::string& folder, std::size_t number) {
   return (fs::path(folder) / fmt::format("test-{}", number)).string();
 }
 
-/// Of set.toml and of the files of its runs. Tire, rig and vehicle files do not count.
 /// Over all files of a set: set.toml, tire, rig or vehicle, runs.
 std::string hash_set(const MeasurementSet& set) {
   std::string all = read_text_file(set.path) + set.tire.content;
@@ -155,7 +154,7 @@ std::string write_loop_plan(const LoopInput& input, const LoopLedger& ledger, co
                        "them, with the tests after it: {:.0f} %",
                        test.hours, left_h, 100.0 * test.naming_chance.value_or(0.0)),
            2);
-  if (!test.splits.empty()) text += wrap(fmt::format("Splits: {}", fmt::join(test.splits, ", ")), 2);
+  if (!test.splits.empty()) text += wrap(fmt::format("Separates: {}", fmt::join(test.splits, ", ")), 2);
   text += "\nIn this order\n\n" + describe_runs(test, 0, *set.kind);
   text += "Afterwards\n\n";
   for (const MeasuredRun& run : test.runs) {

@@ -33,7 +33,8 @@ LoopAnswer make_answer(const LoopLedger& ledger, const Diagnosis& found);
 /// Whether one cause is at 95 % or more, and cannot be mistaken for another; of a trace (a cause that is too small to
 /// matter) as well.
 bool is_named(const LoopAnswer& answer);
-/// Whether a named cause ends the loop while there are hours left: it acts alone at 95 % or more, or is a trace.
+/// Whether a loop ends while there are hours left: a cause is named (is_named) and acts alone with a probability of at
+/// least 90 %, or a trace is named.
 bool is_settled(const LoopAnswer& answer);
 /// How a loop ends for which no test is found: whether hours are left.
 LoopState find_end_without_test(const LoopLedger& ledger);

@@ -190,8 +190,8 @@ std::string indent_lines(const std::string& text) {
 std::string write_plan_text(const MeasurementSet& set, const ProposedTest& test) {
   const PlanWords words = find_words(*set.kind);
   std::string text = fmt::format("Next test for the set '{}'\n\n{}\n", set.name, wrap(test.test, 2));
-  text += test.splits.empty() ? "  Splits: it narrows down what is open\n"
-                              : wrap(fmt::format("Splits: {}", fmt::join(test.splits, ", ")), 2);
+  text += test.splits.empty() ? "  Separates no two causes; it narrows down what is open\n"
+                              : wrap(fmt::format("Separates: {}", fmt::join(test.splits, ", ")), 2);
   text += fmt::format("  Takes {:.1f} h of {}, set-up included; expected {:.2g} bits an hour\n\n", test.hours,
                       words.occupied, test.expected_bits_per_hour);
   text += fmt::format("{}, in this order\n\n", words.place);

@@ -16,14 +16,14 @@ constexpr std::size_t kIndent = 2;
 
 constexpr const char* kNone =
     "The simulation meets the measurement within the noise of the sensors once the numbers of tire and rig "
-    "files move within their uncertainties (*_sd). Always in the comparison, with half of the probability before "
+    "files move within their uncertainties (*_sd). Always in the comparison, with a probability of 42 % before "
     "the data speak. When it is the likeliest, the verdict is no_gap; the report then says which effects the "
     "set could not have shown.";
 
 constexpr const char* kUnknown =
-    "There is a gap, and no effect of the catalog, alone or in a pair, follows it. A flexible discrepancy "
-    "stands in for what is not modeled: it takes part on top of the baseline and on top of each cause found. "
-    "When it is the likeliest, or when something is left over on top of the likeliest cause, the verdict is "
+    "There is a gap, and no effect of the catalog, alone or together with one or two others, explains it. A flexible "
+    "discrepancy stands in for what is not modeled: it takes part on top of the baseline and on top of each cause "
+    "found. If it is at least as probable as the first cause, and more probable than none, the verdict is "
     "unexplained.";
 
 constexpr const char* kUnknownNext =

@@ -124,7 +124,7 @@ std::string describe_alternatives(const Cause& cause) {
 
 /// Why the files cannot be right, in full.
 std::string doubt_lines(const Findings& findings) {
-  return line("Cause", "none is named until this is mended:") + line("", findings.doubt);
+  return line("Cause", "none is named until this is corrected:") + line("", findings.doubt);
 }
 
 /// What an effect outside the catalog is like; empty where that is not known, or nothing is unexplained.

@@ -28,9 +28,9 @@ struct Partner {
   double probability = 0.0;  // that it acts together with the cause
 };
 
-/// An effect, a pair of them, or effects that this set cannot tell apart.
+/// An effect or two or three that act together, or effects that this set cannot separate.
 struct Cause {
-  std::vector<std::string> effects;  // of the hypothesis: one, or two that act together
+  std::vector<std::string> effects;  // of the hypothesis: one, or two or three that act together
   double probability = 0.0;          // that it, or what it cannot be told from, acts: alone or with others
   std::vector<std::string> indistinguishable_from;
   std::vector<ParameterEstimate> parameters;
@@ -79,7 +79,7 @@ struct UnjudgedRun {
 enum class JudgedBy {
   kNothing,
   kRuns,      // runs left out of the fit
-  kStretches  // stretches left out of it, where no run can be judged
+  kStretches  // stretches left out of it: no run counts, or only they confirm the cause (gap.h)
 };
 
 /// How far the gap shrinks, on data that the fit did not see.
@@ -95,7 +95,7 @@ struct Gap {
   std::optional<double> left_out_nats;  // ln of how much likelier the cause makes what was left out; with a cause
   std::vector<UnjudgedRun> not_judged;  // runs that the others do not predict well enough to judge the cause
   std::optional<double> recalibration_percent;  // what recalibration alone takes from the gap as calibrated
-  std::optional<double> black_box_percent;      // what a smooth function of the inputs takes from it
+  std::optional<double> black_box_percent;      // what a smooth function of the inputs takes from the recalibrated gap
   std::vector<std::string> held_out;            // runs left out of a fit and predicted by it
   std::vector<std::string> judged_on;           // of held_out, those on which the cause is judged
   bool worse_where_certain = false;             // the cause enlarges the gap of what is judged
@@ -124,7 +124,7 @@ struct BalanceShare {
 /// A test that would tell more.
 struct NextTest {
   std::string test;
-  std::vector<std::string> splits;  // effects that it tells apart
+  std::vector<std::string> splits;  // effects that it separates
   double expected_bits_per_hour = 0.0;
   double hours = 0.0;                                  // of the rig
   std::vector<std::string> by_hand = {};               // what is done at the rig beside the runs, a sentence each
@@ -140,7 +140,7 @@ struct NextSensor {
   double hours = 0.0;               // to fit it
 };
 
-/// A run that holds most of the gap of an unexplained set, and what is found without it.
+/// A run that holds half or more of the gap of an unexplained set, or runs in doubt, and what is found without them.
 struct LoneRun {
   std::string run;
   double share_percent = 0.0;  // of all that is above the noise
@@ -191,7 +191,7 @@ struct Findings {
   std::vector<BaseNumber> base_numbers;  // that which moved furthest first
   std::vector<NextTest> next_tests;      // the best first
   std::vector<NextSensor> next_sensors;
-  std::vector<std::string> not_excluded;  // effects that this set would not show
+  std::vector<std::string> not_excluded;  // effects that this set would not show, or does not decide about
   std::vector<std::string> warnings;      // about the data, a sentence each
   std::string doubt;                      // of the warnings, the one for which no cause may be named; else empty
   std::optional<LoneRun> without_run;     // of an unexplained set of three runs or more

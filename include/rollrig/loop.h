@@ -15,9 +15,9 @@ namespace rollrig {
 
 enum class LoopState {
   kWaiting,       // for the measurement of the last test
-  kNamed,         // a cause is at 95 %
-  kHoursGone,     // no test fits into what is left
-  kNothingToTest  // no test that fits would tell more
+  kNamed,         // a cause or a trace has at least 95 %
+  kHoursGone,     // 0.6 h or less are left, too little for any test
+  kNothingToTest  // no test that fits into the hours left would tell more
 };
 
 enum class LoopTestState { kPlanned, kMeasured, kFailed };

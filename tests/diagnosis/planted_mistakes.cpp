@@ -81,7 +81,7 @@ bool is_named(const MeasurementSet& set, const std::string& text, const std::str
 /// Whether a sentence that names the run has the words among those that cannot be told apart.
 bool is_untold(const MeasurementSet& set, const std::string& text, const std::string& id, const std::string& words) {
   return any_sentence(set, text, id, [&words](const std::string& sentence) {
-    return sentence.find(words) != std::string::npos && sentence.find("cannot tell apart") != std::string::npos;
+    return sentence.find(words) != std::string::npos && sentence.find("cannot separate") != std::string::npos;
   });
 }
 

@@ -244,7 +244,7 @@ TEST_CASE("files in doubt are told of before any physics, once", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.verdict = diagnosis::Verdict::kUnexplained;
   made.causes.clear();
-  made.doubt = "in run 2 it looks as if cavity_pressure_kPa were in bar: no cause is named until that is mended";
+  made.doubt = "in run 2 it looks as if cavity_pressure_kPa were in bar: no cause is named until that is corrected";
   made.warnings = {"there is one run only", made.doubt};
   const std::vector<std::string> lines = lines_of(format_summary(made));
   CHECK_THAT(lines.at(0), Contains("Verdict") && Contains("files are in doubt"));
