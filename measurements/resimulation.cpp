@@ -12,6 +12,7 @@
 #include "rigs/recorded_roller.h"
 #include "rigs/standstill_grid.h"
 #include "rigs/trace_effects.h"
+#include "sim/core/error.h"
 #include "sim/fixed_grid_integrator.h"
 #include "sim/lagged_midpoint_integrator.h"
 #include "sim/simulate.h"
@@ -181,6 +182,10 @@ sim::Recording<S> Resimulation::simulate(const MeasurementSet& set, const Measur
           program_);
       break;
     }
+  }
+  if (recording.row_count() != run.time_s.size()) {
+    throw RunFailure(fmt::format("the simulation of run {} has {} of its {} rows", run.id, recording.row_count(),
+                                 run.time_s.size()));
   }
   apply_trace_beside_given(run, corner, recording);
   return recording;

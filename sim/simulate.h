@@ -59,7 +59,7 @@ class Sampler {
     while (true) {
       const double row_s = time_of(next_);
       if (!row_open_) {
-        if (row_s >= segment_end_s - kTimeSlack_s || row_s > integrator.time_s()) return;
+        if (row_s >= segment_end_s - slack_at(next_) || row_s > integrator.time_s()) return;
         open_row(integrator, row_s);
       }
       const double upper_s = boundary_after(next_);
@@ -71,7 +71,7 @@ class Sampler {
   /// Rows that are still open or due at the very end.
   void finish(Integrator<S>& integrator) {
     const double end_s = integrator.time_s();
-    if (!row_open_ && time_of(next_) <= end_s + kTimeSlack_s) {
+    if (!row_open_ && time_of(next_) <= end_s + slack_at(next_)) {
       std::copy(integrator.state(), integrator.state() + state_.size(), state_.begin());
       write_instants(time_of(next_));
       row_open_ = row_written_ = true;
@@ -82,13 +82,19 @@ class Sampler {
   }
 
  private:
-  static constexpr double kTimeSlack_s = 1e-9;
+  static constexpr double kMostSlack_s = 1e-9;
   static constexpr double kNever_s = 1e300;
 
   double time_of(long k) const {
     const std::vector<double>& times_s = program_.sample_times_s;
     if (times_s.empty()) return start_s_ + static_cast<double>(k) * interval_s_;
     return k < static_cast<long>(times_s.size()) ? times_s[static_cast<std::size_t>(k)] : kNever_s;
+  }
+  /// By how much the time of sample k may miss a segment's end and still count as there: rounding. A quarter of the
+  /// distance to the samples about it at most, so that an end has one sample and none is left out.
+  double slack_at(long k) const {
+    const double before_s = k > 0 ? time_of(k) - time_of(k - 1) : kNever_s;
+    return std::min(kMostSlack_s, 0.25 * std::min(before_s, time_of(k + 1) - time_of(k)));
   }
   double boundary_after(long k) const { return 0.5 * (time_of(k) + time_of(k + 1)); }
   bool is_written(long k) const { return (k - first_of_phase_) % stride_ == 0; }

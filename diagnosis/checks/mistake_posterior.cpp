@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/error.h"
+
 namespace rollrig::diagnosis {
 namespace {
 
@@ -35,6 +37,7 @@ Posterior::Posterior(const Candidates& candidates) : candidates_(candidates), pr
   std::vector<double> logs;
   for (const auto& [log, share] : parts) logs.push_back(log);
   const double total = add_all_logs(logs);
+  if (!std::isfinite(total)) throw RunFailure("mistakes with columns and units have no finite probability in this set");
   for (const auto& [log, share] : parts) share(std::exp(log - total));
 }
 

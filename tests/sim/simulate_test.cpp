@@ -86,6 +86,22 @@ TEST_CASE("samples may lie at times of their own", "[fast]") {
   CHECK(recording.channel("mean_y0")[3] == Approx(6.0));
 }
 
+TEST_CASE("samples that lie a nanosecond apart are all there, the last ones too", "[fast]") {
+  LambdaSystem system = ramp();
+  sim::FixedGridIntegrator<double> integrator(system);
+  for (const double step_s : {1e-12, 3e-10, 1e-9}) {
+    INFO("step " << step_s << " s");
+    sim::Program program;
+    for (int row = 0; row < 5; ++row) program.sample_times_s.push_back(step_s * row);
+    sim::Phase phase = tests::plain_phase(0.0);
+    phase.segments.front().duration_s = program.sample_times_s.back();
+    program.phases = {phase};
+    const auto recording = sim::simulate<double>(system, integrator, program);
+    CHECK(recording.time_s == program.sample_times_s);
+    for (const std::vector<double>& column : recording.values) CHECK(column.size() == program.sample_times_s.size());
+  }
+}
+
 TEST_CASE("a phase that ends early is followed by the next, and commands act at its start", "[fast]") {
   LambdaSystem system = ramp();
   sim::CvodesIntegrator integrator(system);
