@@ -81,10 +81,11 @@ done
 a regression differs, or a set that validate or fit tire looked at is doubtful
 .TP
 .B 2
-input or usage; nothing is written
+input or usage; nothing is written, except the other sets of a folder of sets
 .TP
 .B 3
-the run failed; nothing is written
+the run failed; nothing is written, except the other points of a sweep and the
+other sets of a folder of sets
 .TP
 .B 70
 a mistake in rollrig itself, with what to report; nothing is half-written

@@ -54,7 +54,7 @@ TEST_CASE("test cars of a list: road load given back within 0.5 %, rollers set, 
   CHECK(make_fleet_csv(cars, results) == make_fleet_csv(cars, simulate_fleet(cars, {}, 1)));
 }
 
-TEST_CASE("test cars of a list: all of them, and docs/epa_fleet.md says what comes out", "[slow]") {
+TEST_CASE("test cars of a list: all of them, and docs/epa_fleet.md says what comes out", "[weekly]") {
   const std::vector<TestCar> cars = read_test_cars(kList);
   CHECK(cars.size() == 1476);
   const std::vector<FleetResult> results = simulate_fleet(cars, {}, 0);
