@@ -84,9 +84,9 @@ void check_loads(const CoastSet& set, CoastDoubts& checked) {
     by_pressure[known - pressures_Pa.begin()].push_back(&run);
   }
   for (const auto& [level, runs] : by_pressure) {
-    const bool differ = std::any_of(runs.begin(), runs.end(), [&runs](const CoastRun* run) {
-      return !is_same_load(run->load_N, runs.front()->load_N);
-    });
+    const double first_N = runs.front()->load_N;
+    const bool differ =
+        std::any_of(runs.begin(), runs.end(), [&](const CoastRun* run) { return !is_same_load(run->load_N, first_N); });
     if (!differ) continue;
     RunDoubt doubt{DoubtKind::kLoad, {}, "different loads", 0.0, ""};
     std::string loads;
