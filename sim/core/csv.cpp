@@ -70,7 +70,7 @@ void CsvTable::read_header(const std::vector<std::string>& names) {
   columns_ = names;
 }
 
-void CsvTable::add_row(int line, std::vector<std::string> cells) {
+void CsvTable::add_row(int line, const std::vector<std::string>& cells) {
   if (cells.size() == 1 && cells[0].empty()) return;  // a blank line, as at the end of a file
   if (cells.size() != columns_.size()) {
     require_no_comment(columns_.front(), path_, form_.header_line, form_);
@@ -78,7 +78,24 @@ void CsvTable::add_row(int line, std::vector<std::string> cells) {
     throw InputError({"ragged row", path_, line, "", format_count(cells.size(), "field"),
                       fmt::format("{} fields, as in the header", columns_.size()), ""});
   }
-  rows_.push_back({line, std::move(cells)});
+  store_row(line, cells);
+}
+
+void CsvTable::store_row(int line, const std::vector<std::string>& cells) {
+  for (const std::string& text : cells) {
+    if (text.size() > std::numeric_limits<std::uint32_t>::max() - cells_.size()) {
+      throw InputError({"too much text in a table", path_, line, "", "", "less than 4 GiB in all cells together", ""});
+    }
+    cells_ += text;
+    cell_ends_.push_back(static_cast<std::uint32_t>(cells_.size()));
+  }
+  lines_.push_back(line);
+}
+
+std::string_view CsvTable::cell(std::size_t row, std::size_t column) const {
+  const std::size_t index = row * columns_.size() + column;
+  const std::size_t begin = index == 0 ? 0 : cell_ends_[index - 1];
+  return std::string_view(cells_).substr(begin, cell_ends_[index] - begin);
 }
 
 CsvTable CsvTable::read(const std::string& path, const CsvForm& form, RowProblems* problems) {
@@ -94,6 +111,7 @@ CsvTable CsvTable::read(const std::string& path, const CsvForm& form, RowProblem
                       ""});
   }
   table.read_header(scanner.next_record());
+  table.cells_.reserve(text.size());
   scanner.go_to_line(form.first_row_line);
   while (!scanner.at_end()) {
     throw_if_interrupted();
@@ -105,7 +123,7 @@ CsvTable CsvTable::read(const std::string& path, const CsvForm& form, RowProblem
       problems->push_back(error.problem());
     }
   }
-  if (table.rows_.empty() && (problems == nullptr || problems->empty()))
+  if (table.lines_.empty() && (problems == nullptr || problems->empty()))
     throw InputError({"a header but no rows", path, form.header_line, "", "", "at least one row", ""});
   return table;
 }
@@ -138,25 +156,25 @@ std::size_t CsvTable::find_column(const std::string& column) const {
 std::vector<std::string> CsvTable::text(const std::string& column) const {
   const std::size_t index = find_column(column);
   std::vector<std::string> cells;
-  cells.reserve(rows_.size());
-  for (const Row& row : rows_) cells.push_back(row.cells[index]);
+  cells.reserve(row_count());
+  for (std::size_t row = 0; row < row_count(); ++row) cells.emplace_back(cell(row, index));
   return cells;
 }
 
 InputError CsvTable::cell_error(std::size_t row, const std::string& column, const std::string& what,
                                 const std::string& allowed) const {
-  const std::string& cell = rows_[row].cells[find_column(column)];
-  return InputError({what, path_, line_of(row), column, cell.empty() ? "(empty)" : shorten(cell, 60), allowed, ""});
+  const std::string value(cell(row, find_column(column)));
+  return InputError({what, path_, line_of(row), column, value.empty() ? "(empty)" : shorten(value, 60), allowed, ""});
 }
 
-double CsvTable::parse_cell(std::size_t row, const Field& field, const std::string& cell) const {
+double CsvTable::parse_cell(std::size_t row, const Field& field, std::string_view cell) const {
   const auto make_error = [&](const std::string& what, bool with_point = false) {
     const std::string range = field.range.to_string();
     const std::string allowed = range.empty() ? "a number" : "a number " + range;
     return cell_error(row, field.key, what, with_point ? allow(allowed + " with a decimal point", form_) : allowed);
   };
   double value = 0.0;
-  std::string plain = cell;
+  std::string plain(cell);
   if (form_.decimal != '.') {
     std::replace(plain.begin(), plain.end(), '.', '?');  // a point is no number's then
     std::replace(plain.begin(), plain.end(), form_.decimal, '.');
@@ -164,10 +182,11 @@ double CsvTable::parse_cell(std::size_t row, const Field& field, const std::stri
   const char* end = plain.data() + plain.size();
   const auto [stop, error] = std::from_chars(plain.data(), end, value);
   if (error != std::errc() || stop != end) {
-    const bool has_comma = form_.decimal == '.' && parse_number(boost::algorithm::replace_all_copy(cell, ",", "."));
-    throw make_error(fmt::format("'{}' is not a number", shorten(cell, 60)), has_comma);
+    const bool has_comma =
+        form_.decimal == '.' && parse_number(boost::algorithm::replace_all_copy(std::string(cell), ",", "."));
+    throw make_error(fmt::format("'{}' is not a number", shorten(std::string(cell), 60)), has_comma);
   }
-  if (!std::isfinite(value)) throw make_error(fmt::format("'{}' is not finite", shorten(cell, 60)));
+  if (!std::isfinite(value)) throw make_error(fmt::format("'{}' is not finite", shorten(std::string(cell), 60)));
   if (!field.range.contains(value)) throw make_error(fmt::format("{} is out of range", field.key));
   return value;
 }
@@ -187,11 +206,11 @@ std::vector<double> CsvTable::numbers(const Field& column, bool may_be_empty, Ro
   const std::size_t index = find_column(column.key);
   const Unit unit = unit_of_key(column.key);
   std::vector<double> values;
-  values.reserve(rows_.size());
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const std::string& cell = rows_[row].cells[index];
+  values.reserve(row_count());
+  for (std::size_t row = 0; row < row_count(); ++row) {
+    const std::string_view text = cell(row, index);
     values.push_back(parse_or_note(problems, [&] {
-      if (!cell.empty()) return unit.to_si(parse_cell(row, column, cell));
+      if (!text.empty()) return unit.to_si(parse_cell(row, column, text));
       if (may_be_empty) return std::numeric_limits<double>::quiet_NaN();
       throw cell_error(row, column.key, fmt::format("'{}' has an empty field", column.key),
                        "a number in every row: this column is an input");
@@ -205,12 +224,12 @@ std::vector<double> CsvTable::plain_numbers(const std::string& column, const std
   const std::size_t index = find_column(column);
   const Field field{column.c_str(), any_number(), ""};
   std::vector<double> values;
-  values.reserve(rows_.size());
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const std::string cell = boost::algorithm::trim_copy(rows_[row].cells[index]);
-    const bool is_missing = cell.empty() || std::find(missing.begin(), missing.end(), cell) != missing.end();
+  values.reserve(row_count());
+  for (std::size_t row = 0; row < row_count(); ++row) {
+    const std::string text = boost::algorithm::trim_copy(std::string(cell(row, index)));
+    const bool is_missing = text.empty() || std::find(missing.begin(), missing.end(), text) != missing.end();
     values.push_back(is_missing ? std::numeric_limits<double>::quiet_NaN()
-                                : parse_or_note(problems, [&] { return parse_cell(row, field, cell); }));
+                                : parse_or_note(problems, [&] { return parse_cell(row, field, text); }));
   }
   return values;
 }
@@ -225,11 +244,11 @@ RowProblems CsvTable::find_wrong_times(const std::string& column, const std::vec
     if (increases[row]) before = row;
     if (increases[row] || std::isnan(times[row])) continue;
     const bool falls = before < times.size() && times[row] <= times[before];
-    const auto cell = [&](std::size_t at) { return rows_[at].cells[find_column(column)]; };
-    const std::string other = cell(falls ? before : next[row]);
+    const std::size_t index = find_column(column);
+    const std::string other(cell(falls ? before : next[row], index));
     problems.push_back(
         cell_error(row, column,
-                   fmt::format("time does not increase: {} {} {}", cell(row), falls ? "after" : "before", other),
+                   fmt::format("time does not increase: {} {} {}", cell(row, index), falls ? "after" : "before", other),
                    fmt::format("{} than {}", falls ? "more" : "less", other))
             .problem());
   }

@@ -4,7 +4,9 @@
 /// Own code because no package at hand reads a file whose columns are known only at run time and tells
 /// the line of a wrong field: fast-cpp-csv-parser fixes the number of columns when it is compiled.
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/core/rows.h"
@@ -39,10 +41,10 @@ class CsvTable {
 
   const std::string& path() const { return path_; }
   const std::vector<std::string>& columns() const { return columns_; }
-  std::size_t row_count() const { return rows_.size(); }
+  std::size_t row_count() const { return lines_.size(); }
   bool has(const std::string& column) const;
   /// Line of the file on which a row begins.
-  int line_of(std::size_t row) const { return rows_[row].line; }
+  int line_of(std::size_t row) const { return lines_[row]; }
   /// What is wrong with a cell, with its line and text, for the caller to throw.
   InputError cell_error(std::size_t row, const std::string& column, const std::string& what,
                         const std::string& allowed) const;
@@ -65,24 +67,24 @@ class CsvTable {
   RowProblems find_wrong_times(const std::string& column, const std::vector<double>& times) const;
 
  private:
-  struct Row {
-    int line = 0;
-    std::vector<std::string> cells;
-  };
-
   void read_header(const std::vector<std::string>& names);
   /// The row, if it is no blank line. Throws InputError.
-  void add_row(int line, std::vector<std::string> cells);
+  void add_row(int line, const std::vector<std::string>& cells);
+  void store_row(int line, const std::vector<std::string>& cells);
+  std::string_view cell(std::size_t row, std::size_t column) const;
   std::size_t find_column(const std::string& column) const;
   /// Calls `parse`; what it throws is added to `problems` where they are asked for, and NaN returned.
   template <class Parse>
   static double parse_or_note(RowProblems* problems, const Parse& parse);
-  double parse_cell(std::size_t row, const Field& field, const std::string& cell) const;
+  double parse_cell(std::size_t row, const Field& field, std::string_view cell) const;
 
   std::string path_;
   CsvForm form_;
   std::vector<std::string> columns_;
-  std::vector<Row> rows_;
+  // All cells in one text, row by row: a string for each would take several times the memory of a large file.
+  std::string cells_;
+  std::vector<std::uint32_t> cell_ends_;  // of each cell in cells_
+  std::vector<int> lines_;                // of each row
 };
 
 /// Builds CSV text. Numbers are written so that reading them back gives the same value to so many significant digits,

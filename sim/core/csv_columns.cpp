@@ -7,10 +7,11 @@ CsvTable CsvTable::of_columns(const std::string& path, const std::vector<std::st
   CsvTable table;
   table.path_ = path;
   table.columns_ = names;
-  table.rows_.resize(cells.empty() ? 0 : cells.front().size());
-  for (std::size_t row = 0; row < table.rows_.size(); ++row) {
-    table.rows_[row].line = static_cast<int>(row) + 1;
-    for (std::vector<std::string>& column : cells) table.rows_[row].cells.push_back(std::move(column[row]));
+  const std::size_t row_count = cells.empty() ? 0 : cells.front().size();
+  std::vector<std::string> row(cells.size());
+  for (std::size_t i = 0; i < row_count; ++i) {
+    for (std::size_t k = 0; k < cells.size(); ++k) row[k] = std::move(cells[k][i]);
+    table.store_row(static_cast<int>(i) + 1, row);
   }
   return table;
 }

@@ -69,7 +69,8 @@ DecodedText decode_text(std::string bytes, const std::string& encoding) {
   }
   if (!decoded.is_valid) return decoded;
   const std::size_t wrong = std::min(find_wrong_utf8(decoded.text), decoded.text.find('\0'));
-  return wrong == std::string::npos ? decoded : give_up_at(decoded.text, wrong);
+  if (wrong != std::string::npos) return give_up_at(decoded.text, wrong);
+  return decoded;  // not by a conditional operator, which would copy the text
 }
 
 }  // namespace rollrig
