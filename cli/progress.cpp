@@ -12,13 +12,22 @@
 namespace rollrig::cli {
 namespace {
 
-constexpr std::chrono::seconds kQuietFor{2};
+constexpr std::chrono::seconds kQuietOnTerminal{2};
 constexpr std::chrono::milliseconds kBetweenUpdates{200};
+constexpr std::chrono::seconds kQuietInLog{10};
+constexpr std::chrono::seconds kBetweenLines{60};
+
+std::string show_duration(double duration_s) {
+  return duration_s < 120.0 ? fmt::format("{:.0f} s", duration_s) : fmt::format("{:.0f} min", duration_s / 60.0);
+}
 
 }  // namespace
 
 ProgressLine::ProgressLine(std::string label, bool quiet)
-    : label_(std::move(label)), active_(!quiet && isatty(STDERR_FILENO) != 0) {}
+    : label_(std::move(label)),
+      active_(!quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      next_(start_ + (terminal_ ? kQuietOnTerminal : kQuietInLog)) {}
 
 ProgressLine::~ProgressLine() { clear(); }
 
@@ -29,9 +38,9 @@ void ProgressLine::clear() {
 }
 
 bool ProgressLine::is_due() {
-  const Clock::time_point now = Clock::now();
-  if (now - start_ < kQuietFor || now - last_ < kBetweenUpdates) return false;
-  last_ = now;
+  last_ = Clock::now();
+  if (last_ < next_) return false;
+  next_ = last_ + (terminal_ ? Clock::duration(kBetweenUpdates) : Clock::duration(kBetweenLines));
   return true;
 }
 
@@ -43,9 +52,20 @@ void ProgressLine::update(double done, const std::string& stage) {
   if (done >= 1.0 || !is_due()) return;
   const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();
   std::string text = label_;
-  if (done > 0.0) text += fmt::format("  {:.0f} %, about {:.0f} s left", 100.0 * done, elapsed_s * (1.0 - done) / done);
+  if (done > 0.0) {
+    text += fmt::format("  {:.0f} %, about {} left", 100.0 * done, show_duration(elapsed_s * (1.0 - done) / done));
+  }
   if (!stage.empty()) text += "  " + stage;
   text = show_on_one_line(text);
+  if (terminal_) {
+    write_on_terminal(std::move(text));
+  } else {
+    fmt::print(stderr, "{}\n", text);
+  }
+  std::fflush(stderr);
+}
+
+void ProgressLine::write_on_terminal(std::string text) {
   while (count_characters(text) >= terminal_columns(STDERR_FILENO)) {  // else it would take a second line
     while ((static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) text.pop_back();
     text.pop_back();
@@ -53,7 +73,6 @@ void ProgressLine::update(double done, const std::string& stage) {
   clear();
   shown_ = count_characters(text);
   fmt::print(stderr, "{}", text);
-  std::fflush(stderr);
 }
 
 Progress ProgressLine::callback() {

@@ -1,5 +1,5 @@
 #pragma once
-/// A progress line on the terminal, for what takes longer than two seconds.
+/// Progress of what takes longer than two seconds on a terminal, and than ten seconds in a log.
 
 #include <chrono>
 #include <mutex>
@@ -9,7 +9,8 @@
 
 namespace rollrig::cli {
 
-/// Writes to standard error when that is a terminal, and only once two seconds have passed.
+/// Writes to standard error. On a terminal, one line that is updated, once two seconds have passed. Elsewhere, as in
+/// the log of a CI job, a new line once ten seconds have passed, and then one a minute.
 class ProgressLine {
  public:
   ProgressLine(std::string label, bool quiet);
@@ -30,13 +31,16 @@ class ProgressLine {
 
   /// Whether it is time for another update; notes that one was made.
   bool is_due();
+  void write_on_terminal(std::string text);
 
   std::string label_;
   bool active_;
+  bool terminal_;
   std::size_t shown_ = 0;  // characters on the terminal
   double done_ = 0.0;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
+  Clock::time_point next_;
   std::mutex mutex_;
 };
 

@@ -128,3 +128,18 @@ TEST_CASE("a long sweep tells how long it will take, and its table starts on a c
   CHECK_THAT(run.sent, Contains(" s left"));
   CHECK_THAT(run.shown, Catch::StartsWith("  151 runs\n  load_N  parasitic_N\n"));
 }
+
+TEST_CASE("a long command says in a log, too, how long it will take", "[slow]") {
+  const TemporaryFolder folder;
+  // Stopped for longer than the ten seconds that are waited for, so that the test itself has little to calculate.
+  const std::string start = "sweep iso_28580 --tire a50 --vary ambient_degC=20:30:0.1 --threads 1";
+  const std::string halt = " & sleep 1; kill -STOP $!; sleep 10; kill -CONT $!; wait $!";
+  const auto logged = run_program(start + " --json sweep.json" + halt, folder.path(), "");
+  INFO(logged.err);
+  CHECK(logged.status == 0);
+  CHECK_THAT(logged.err, Catch::Matchers::Matches("sweep  [0-9]+ %, about [0-9]+ (s|min) left.*\n"));
+  CHECK(std::count(logged.err.begin(), logged.err.end(), '\n') == 1);
+  const auto quiet = run_program(start + " --quiet --json quiet.json" + halt, folder.path(), "");
+  CHECK(quiet.status == 0);
+  CHECK(quiet.err.empty());
+}
