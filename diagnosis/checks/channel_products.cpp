@@ -109,13 +109,14 @@ RunProducts calc_products(const MeasurementSet& set, const MeasuredRun& run, con
   for (const Quantity& channel : measurements::measured_channels(*set.kind)) {
     products.emplace_back();
     if (!run.has(channel) || rows.count(channel) == 0) continue;
+    const Values& measured = run.column(channel);
     std::vector<std::size_t> there;  // an exchanged column may have no samples in some of the rows
     for (const std::size_t row : rows.at(channel)) {
-      if (!std::isnan(run.column(channel)[row])) there.push_back(row);
+      if (!std::isnan(measured[row])) there.push_back(row);
     }
     if (there.empty()) continue;
     const Values& expected = simulated.channel(channel);
-    there = drop_spikes(run.column(channel), expected, set.sensors.at(channel).noise_sd, std::move(there));
+    there = drop_spikes(measured, expected, set.sensors.at(channel).noise_sd, std::move(there));
     Values times_of_file_s;
     for (const std::size_t row : there) times_of_file_s.push_back(times_s[row]);
     products.back() = calc_channel_products(set, run, channel, expected, there, times_of_file_s);

@@ -73,11 +73,12 @@ void add_lag(const MeasuredRun& run, const Values& simulated, std::vector<Values
 Unknowns list_unknowns(const MeasurementSet& set, const MeasuredRun& run, const Quantity& channel,
                        const Values& simulated) {
   const Tolerance tolerance = find_tolerance(set, run, channel);
+  const Values& speed_m_s = run.column(quantities::kSpeed);
   Unknowns unknowns;
   std::vector<Values> at_rest(3, Values(simulated.size(), tolerance.fixed));
   for (std::size_t row = 0; row < simulated.size(); ++row) {
     at_rest[1][row] *= std::exp((run.time_s.front() - run.time_s[row]) / kFades_s);
-    at_rest[2][row] *= run.column(quantities::kSpeed)[row] / kSpeed_m_s;
+    at_rest[2][row] *= speed_m_s[row] / kSpeed_m_s;
   }
   unknowns.scaled = std::move(at_rest);
   if (channel == set.kind->traits.force) unknowns.fixed = kind_of(set).list_unknown_forces(set, run);

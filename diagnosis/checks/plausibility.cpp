@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "diagnosis/kinds/measurement_kind.h"
 #include "models/corner.h"
@@ -19,17 +20,28 @@ using measurements::MeasurementSet;
 
 constexpr double kUncompared = 1.05;  // just outside
 
-double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const Quantity& channel, std::size_t row,
-                      double simulated) {
-  const MeasurementKind& kind = kind_of(set);
-  if (channel == set.kind->traits.force) return kind.calc_force_tolerance(set, simulated);
+/// The tolerance of a channel as a function of row and simulated value: what is looked up once is not looked up again
+/// for each row.
+std::function<double(std::size_t row, double simulated)> make_tolerance_law(const MeasurementSet& set,
+                                                                            const MeasuredRun& run,
+                                                                            const Quantity& channel) {
+  if (channel == set.kind->traits.force) {
+    return [&set, &kind = kind_of(set)](std::size_t, double simulated) {
+      return kind.calc_force_tolerance(set, simulated);
+    };
+  }
   if (const std::optional<ReferenceTolerance> reference = find_reference_tolerance(channel)) {
-    return reference->fixed_SI + reference->share * std::abs(simulated);
+    return [tolerance = *reference](std::size_t, double simulated) {
+      return tolerance.fixed_SI + tolerance.share * std::abs(simulated);
+    };
   }
   const models::ChannelFamily& family = models::get_tire_channel(channel).family;
   const bool is_pressure = family.rest == models::ChannelFamily::Rest::kColdPressure;
-  const double rest = is_pressure ? run.cold_pressure_Pa : run.column(models::quantities::kAmbient)[row];
-  return family.tolerance_SI + family.share_of_rise * std::abs(simulated - rest);
+  const std::vector<double>* ambient_K = is_pressure ? nullptr : &run.column(models::quantities::kAmbient);
+  return [&family, &run, ambient_K](std::size_t row, double simulated) {
+    const double rest = ambient_K == nullptr ? run.cold_pressure_Pa : (*ambient_K)[row];
+    return family.tolerance_SI + family.share_of_rise * std::abs(simulated - rest);
+  };
 }
 
 /// Of one sample, what its sensor makes of its own.
@@ -44,12 +56,13 @@ ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& 
   const Unit unit = channel.file_unit();
   ChannelMisfit misfit{channel, rows.size()};
   const double noise = calc_noise(set, channel);
+  const auto calc_tolerance = make_tolerance_law(set, run, channel);
   double squares = 0.0;
   double noise_squares = 0.0;
   double measured_sum = 0.0;
   double simulated_sum = 0.0;
   for (const std::size_t row : rows) {
-    const double tolerance = calc_tolerance(set, run, channel, row, simulated[row]);
+    const double tolerance = calc_tolerance(row, simulated[row]);
     const double off = std::abs(measured[row] - simulated[row]) / tolerance;
     noise_squares += noise * noise / (tolerance * tolerance);
     const double held = std::isfinite(off) ? std::min(off, kLargestMisfit) : kLargestMisfit;
@@ -131,9 +144,10 @@ RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run, const s
   RunMisfit misfit;
   for (const auto& [channel, all] : rows) {
     if (!run.has(channel)) continue;
+    const std::vector<double>& measured = run.column(channel);
     std::vector<std::size_t> there;
     for (const std::size_t row : all) {
-      if (!std::isnan(run.column(channel)[row])) there.push_back(row);
+      if (!std::isnan(measured[row])) there.push_back(row);
     }
     misfit.channels.push_back(calc_channel_misfit(set, run, channel, simulated.channel(channel), there));
   }
