@@ -10,7 +10,8 @@
 namespace rollrig::diagnosis {
 namespace {
 
-constexpr double kBlock_s = 10.0;  // Assumed: short against what a tire takes to warm, and ten samples a second apart
+constexpr double kShortBlock_s = 10.0;  // Assumed: short against the warm-up of a tire, and ten samples at 1 Hz
+constexpr double kShortBlocksUpTo_s = 24.0 * 3600.0;  // Assumed: three working days of tests
 constexpr double kSlack_s = 1e-6;
 
 /// Whether the surface stands still over a row and its neighbors.
@@ -42,14 +43,21 @@ void add_standstill_rows(const measurements::MeasuredRun& run, const std::vector
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 }
 
-/// Blocks of samples: not longer than kBlock_s, in one phase, and without a gap inside that is longer than a block.
+/// In proportion to the recorded time of a long set, so that the number of blocks is bounded.
+double find_block_length_s(const measurements::MeasurementSet& set) {
+  double recorded_s = 0.0;
+  for (const measurements::MeasuredRun& run : set.runs) recorded_s += run.time_s.back() - run.time_s.front();
+  return kShortBlock_s * std::max(1.0, recorded_s / kShortBlocksUpTo_s);
+}
+
+/// Blocks of samples: not longer than `length_s`, in one phase, and without a gap inside that is longer than a block.
 std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::vector<double>& time_s,
-                               const std::vector<std::size_t>& phase) {
+                               const std::vector<std::size_t>& phase, double length_s) {
   std::vector<Block> blocks;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t row = rows[i];
     const bool fits = !blocks.empty() && phase[row] == phase[rows[blocks.back().first]] &&
-                      time_s[row] < time_s[rows[blocks.back().first]] + kBlock_s - kSlack_s;
+                      time_s[row] < time_s[rows[blocks.back().first]] + length_s - kSlack_s;
     if (fits) {
       blocks.back().last = i + 1;
     } else {
@@ -72,6 +80,7 @@ PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings 
     : extra_(std::move(extra)), set_(set), kind_(&kind_of(set)) {
   std::sort(set_.runs.begin(), set_.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   for (measurements::MeasuredRun& run : set_.runs) kind_->complete(set_, run);
+  block_length_s_ = find_block_length_s(set_);
   context_ = measurements::make_context(set_);
   std::vector<Quantity> readable = measurements::measured_channels(*set_.kind);
   for (const Quantity& channel : extra_.sensors) {
@@ -112,7 +121,7 @@ void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t off
   if (reads_zero && quantity == set_.kind->traits.force) add_standstill_rows(run.measured, values, rows);
   if (rows.empty()) return;
   const std::vector<std::size_t> phases = phase_by_row(run);
-  std::vector<Block> blocks = make_blocks(rows, run.measured.time_s, phases);
+  std::vector<Block> blocks = make_blocks(rows, run.measured.time_s, phases, block_length_s_);
   const Whitener whitener(sensor, measurements::find_times(run.measured, rows), blocks);
   Series series{r,  channel,  offset, sensor.offset_sd, std::move(rows), std::move(blocks), {}, {},
                 {}, whitener, 0.0,    residual_count_};

@@ -62,7 +62,8 @@ struct ExtraReadings {
 void require_noise(const measurements::MeasurementSet& set, const Quantity& channel);
 
 /// Runs are put in the order of their ids, so that the order in the file does not matter.
-/// Blocks are 10 s long and end where a phase or an averaging gap does. What depends on the kind of the set
+/// Blocks are 10 s long and end where a phase or an averaging gap does. In sets of more than 24 recorded hours they are
+/// longer, in proportion to the recorded time, so that memory is bounded. What depends on the kind of the set
 /// (kinds/measurement_kind.h): which rows are compared, the phases, how a run is simulated.
 /// Errors  InputError: no sample in any channel; a sensor without any noise; what the set's kind needs is not there
 class PreparedSet {
@@ -78,6 +79,8 @@ class PreparedSet {
   const std::vector<Series>& series() const { return series_; }
   std::size_t offset_count() const { return offset_count_; }
   std::size_t residual_count() const { return residual_count_; }
+  /// 10 s times the recorded hours / 24, and at least 10 s.
+  double block_length_s() const { return block_length_s_; }
   /// Block means of every series, SI units, one a residual.
   const Eigen::VectorXd& measured() const { return measured_; }
 
@@ -91,6 +94,7 @@ class PreparedSet {
   std::vector<PreparedRun> runs_;
   std::vector<Quantity> channels_;
   std::vector<Series> series_;
+  double block_length_s_ = 0.0;
   std::size_t offset_count_ = 0;
   std::size_t residual_count_ = 0;
   Eigen::VectorXd measured_;
