@@ -38,7 +38,7 @@ measurements::MeasurementSet measure_with(const measurements::MeasurementSet& ca
 TEST_CASE("a set simulated with an effect is named, a trace, or listed as one it would not show", "[slow]") {
   constexpr double kLargeSize = 0.9;  // near the upper end of the prior
   measurements::MeasurementSet campaign = tests::simulate_campaign(tests::make_wide_campaign());
-  for (measurements::MeasuredRun& run : campaign.runs) run = tests::thin_out(run, 2);
+  for (measurements::MeasuredRun& run : campaign.runs) run = tests::thin_out(run, 4);
   int named = 0;
   for (const models::Effect* effect : models::all_effects()) {
     const models::EffectInfo& info = effect->info;
