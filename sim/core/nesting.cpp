@@ -70,8 +70,9 @@ class NestingScan {
     }
     if (!is_long) return skip_to(at_ + 1);
     constexpr std::size_t kMostQuotes = 5;  // two of them belong to the string
-    const std::size_t end = std::min(text_.find_first_not_of(quote, at_), text_.size());
-    skip_to(std::min(end, at_ + kMostQuotes));
+    at_ = std::min(at_, text_.size());
+    const std::string_view end = text_.substr(at_, kMostQuotes);  // not the whole text, which would take squared time
+    skip_to(at_ + std::min(end.find_first_not_of(quote), end.size()));
   }
 
   void skip_to(std::size_t place) { at_ = std::min(place, text_.size()); }

@@ -57,3 +57,8 @@ TEST_CASE("one object has no more keys than can be looked up one after the other
   CHECK_THROWS_WITH(check("{" + repeat("\"a\": 1,", kMostFieldsInBraces) + "\"a\": 1}"), Contains("too many keys"));
   CHECK_NOTHROW(check("[" + repeat("1,", 10 * kMostFieldsInBraces) + "1]"));
 }
+
+TEST_CASE("four megabytes of quotes are passed over in one go", "[fast]") {  // minutes, if each looked for the last
+  constexpr std::size_t kQuotes = 4 << 20;
+  for (const char* quote : {"\"", "'"}) CHECK_NOTHROW(check("x = " + repeat(quote, kQuotes)));
+}
