@@ -69,8 +69,13 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   }
   const auto [low, high] = std::minmax_element(rrc.begin(), rrc.end());
   results.rrc_span = *high - *low;
-  if (has_two_values(loads_of(settings, spec))) results.load_exponent = fit_power(load_N, loss_N);
   if (const auto warning = warn_of_unsettled(results.cycles)) outcome.warnings.push_back(*warning);
+  if (!has_two_values(loads_of(settings, spec))) return results;
+  if (const auto warning = warn_of_no_power(loss_N)) {
+    outcome.warnings.push_back(*warning);
+  } else {
+    results.load_exponent = fit_power(load_N, loss_N);
+  }
   return results;
 }
 

@@ -63,7 +63,10 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     loss_N.push_back(cycle.rolling_resistance_N);
   }
   if (const auto warning = warn_of_unsettled(steady)) outcome.warnings.push_back(*warning);
-  if (has_two_values(settings.pressures_Pa)) {
+  if (!has_two_values(settings.pressures_Pa)) return results;
+  if (const auto warning = warn_of_no_power(loss_N)) {
+    outcome.warnings.push_back(*warning);
+  } else {
     results.exponent = fit_power(settings.pressures_Pa, loss_N);
     results.first_to_second = loss_N[0] / loss_N[1];
   }

@@ -1,5 +1,7 @@
 #include "scenarios/common/drum_bench.h"
 
+#include <cmath>
+
 #include "rigs/multibody_drum.h"
 #include "rigs/quasi_static_drum.h"
 #include "rigs/trace_effects.h"
@@ -27,7 +29,33 @@ void fill_set_starts(const sim::Recording<double>& recording, std::vector<SetRun
   }
 }
 
+/// With hardly any damping, the carriage bounces on the tire through the whole test: the integrator then follows some
+/// ten steps of each oscillation for hours of simulated time.
+/// Validity  c >= 0.05 * 2 sqrt(k m), with k the vertical stiffness of the tire and m the carriage with the wheel.
+///           Assumed: as for the suspension of a vehicle
+void check_carriage_damping(const RunSpec& spec) {
+  constexpr double kLeastRatio = 0.05;
+  if (spec.fidelity != Fidelity::kMultibody || !spec.tire.has_stiffness) return;
+  const models::TireParameters<double>& tire = spec.tire.values;
+  const double moving_kg = spec.rig.carriage.mass_kg + tire.geometry.mass_kg + tire.geometry.wheel_mass_kg;
+  const double critical = 2.0 * std::sqrt(tire.stiffness.vertical_N_per_m * moving_kg);
+  const double ratio = spec.rig.carriage.damping_N_s_per_m / critical;
+  if (ratio >= kLeastRatio) return;
+  throw InputError(
+      {fmt::format("the carriage has {:.2g} of critical damping: it would bounce on the tire through the whole test",
+                   ratio),
+       spec.rig.path, 0, "damping_N_s_per_m", fmt::format("{:g}", spec.rig.carriage.damping_N_s_per_m),
+       fmt::format("at least {:.0f} N s/m, {} of critical damping, or --fidelity quasi_static",
+                   std::ceil(kLeastRatio * critical), kLeastRatio),
+       ""});
+}
+
 }  // namespace
+
+void check_drum(const RunSpec& spec) {
+  rigs::make_context(spec.tire, spec.rig, spec.baseline);
+  check_carriage_damping(spec);
+}
 
 void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, const DrumProgram& program,
                       const sim::Progress& progress, Outcome& outcome) {

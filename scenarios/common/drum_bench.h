@@ -11,13 +11,15 @@ namespace rollrig::scenarios {
 void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, const DrumProgram& program,
                       const sim::Progress& progress, Outcome& outcome);
 
+/// Throws InputError where tire and rig do not give the equations what they need, or the carriage would bounce on the
+/// tire through the whole test.
+void check_drum(const RunSpec& spec);
+
 /// A scenario on the drum; see rig_scenario.h.
 template <class Settings, class Results>
 Scenario make_drum_scenario(ScenarioText text, DrumProgram (*plan)(const Settings&, const RunSpec&),
                             Results (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
-  Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_on_drum, [](const RunSpec& spec) {
-    rigs::make_context(spec.tire, spec.rig, spec.baseline);
-  });
+  Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_on_drum, &check_drum);
   scenario.writes_sets = true;
   return scenario;
 }

@@ -159,6 +159,12 @@ double fit_power(const std::vector<double>& x, const std::vector<double>& y) {
   return boost::math::statistics::simple_ordinary_least_squares(logarithms(x), logarithms(y)).second;
 }
 
+std::optional<std::string> warn_of_no_power(const std::vector<double>& loss_N) {
+  const double least_N = *std::min_element(loss_N.begin(), loss_N.end());
+  if (least_N > 0.0) return std::nullopt;
+  return fmt::format("a rolling resistance of {:.2f} N is not positive, so that no power law is fitted", least_N);
+}
+
 Cycle average_cycles(const std::vector<Cycle>& cycles) {
   Cycle mean = cycles.back();
   mean.parasitic_N = mean.rolling_resistance_N = mean.rrc = mean.force_method_N = 0.0;

@@ -158,6 +158,30 @@ TEST_CASE("a power is fitted exactly to a power", "[fast]") {
         Approx(-0.4));
 }
 
+TEST_CASE("a sweep with a resistance that is read below zero has no power, and says why", "[fast]") {
+  for (const auto& [scenario, exponent] : {std::pair("pressure_sweep", "steady_state_pressure_exponent"),
+                                           std::pair("load_sweep", "steady_state_load_exponent")}) {
+    INFO(scenario);
+    // The load is read as a negative force: 20 mrad of 5 kN are more than the resistance.
+    const auto outcome = run(scenario, "a50", {"effects.load_cross_talk.angle_mrad=-20"});
+    CHECK(outcome.result["cycles"][0]["rolling_resistance_N"].get<double>() < 0.0);
+    CHECK(outcome.result.count(exponent) == 0);
+    REQUIRE(outcome.warnings.size() == 1);
+    CHECK_THAT(outcome.warnings[0], Catch::Contains("not positive"));
+    CHECK(run(scenario, "a50").result.count(exponent) == 1);
+  }
+}
+
+TEST_CASE("a carriage that would bounce through the whole test is refused on the multibody drum", "[fast]") {
+  const auto with_damping = [](const std::string& damping, const std::string& fidelity) {
+    run("iso_28580", "a50", {"soak_h=0", "rig.carriage.damping_N_s_per_m=" + damping}, fidelity);
+  };
+  CHECK_THROWS_WITH(with_damping("0", "multibody"),
+                    Catch::Contains("carriage") && Catch::Contains("at least") && Catch::Contains("damping_N_s_per_m"));
+  CHECK_NOTHROW(with_damping("0", "quasi_static"));
+  CHECK_NOTHROW(with_damping("700", "multibody"));
+}
+
 TEST_CASE("a value that a sweep repeats is measured again, each from a soaked tire", "[fast]") {
   const auto speeds = run("speed_sweep", "a50", {"speeds_km_h=[80,120,80]"});
   REQUIRE(speeds.result["cycles"].size() == 3);
