@@ -139,7 +139,4 @@ TEST_CASE("a long command says in a log, too, how long it will take", "[slow]") 
   CHECK(logged.status == 0);
   CHECK_THAT(logged.err, Catch::Matchers::Matches("sweep  [0-9]+ %, about [0-9]+ (s|min) left.*\n"));
   CHECK(std::count(logged.err.begin(), logged.err.end(), '\n') == 1);
-  const auto quiet = run_program(start + " --quiet --json quiet.json" + halt, folder.path(), "");
-  CHECK(quiet.status == 0);
-  CHECK(quiet.err.empty());
 }
