@@ -26,9 +26,25 @@ struct Sweep::Data {
 
 namespace {
 
-InputError bad_axis(const std::string& text) {
-  return InputError({fmt::format("--vary '{}' is not understood", text), "command line", 0, "--vary", text,
-                     "key=a,b,c or key=from:to:step, with the keys of --set", ""});
+InputError bad_axis(const std::string& text, const std::string& what = "is not understood",
+                    const std::string& allowed = "key=a,b,c or key=from:to:step, with the keys of --set") {
+  return InputError({fmt::format("--vary '{}' {}", text, what), "command line", 0, "--vary", text, allowed, ""});
+}
+
+/// Refuses a setting that is varied twice, or varied and set.
+void require_once(const SweepInput& input) {
+  for (auto axis = input.axes.begin(); axis != input.axes.end(); ++axis) {
+    const auto is_same = [&](const SweepAxis& other) { return other.key == axis->key; };
+    if (std::any_of(input.axes.begin(), axis, is_same)) {
+      throw InputError({fmt::format("'{}' is varied twice", axis->key), "command line", 0, "--vary", axis->key,
+                        "each setting in one --vary", ""});
+    }
+    const auto sets = [&](const std::string& setting) { return setting.rfind(axis->key + "=", 0) == 0; };
+    if (std::any_of(input.run.settings.begin(), input.run.settings.end(), sets)) {
+      throw InputError({fmt::format("'{}' is varied and set", axis->key), "command line", 0, "--set", axis->key,
+                        "--vary or --set", ""});
+    }
+  }
 }
 
 /// Refuses more points than memory and a result of one table hold, before any is made.
@@ -156,6 +172,9 @@ SweepAxis read_sweep_axis(const std::string& text) {
   const std::string values = text.substr(equals + 1);
   if (values.find(':') == std::string::npos) {
     boost::algorithm::split(axis.values, values, [](char c) { return c == ','; });
+    if (std::any_of(axis.values.begin(), axis.values.end(), [](const std::string& value) { return value.empty(); })) {
+      throw bad_axis(text, "has an empty value", "a value before and after each comma");
+    }
     return axis;
   }
   std::vector<std::string> words;
@@ -167,13 +186,25 @@ SweepAxis read_sweep_axis(const std::string& text) {
   if (!from.has_value() || !to.has_value() || !step.has_value()) throw bad_axis(text);
   constexpr double kMostValues = 10000.0;
   const double intervals = (*to - *from) / *step;
-  if (*step == 0.0 || intervals < 0.0 || intervals > kMostValues) throw bad_axis(text);
+  if (!std::isfinite(*from) || !std::isfinite(*to) || !std::isfinite(*step)) {
+    throw bad_axis(text, "is not finite", "finite numbers");
+  }
+  if (*step == 0.0) throw bad_axis(text, "has a step of 0", "a step that leads from the first value to the last");
+  if (intervals < 0.0) {
+    throw bad_axis(text, "has a step that leads away from the last value",
+                   fmt::format("a step of the other sign: {:.6g}", -*step));
+  }
+  if (intervals > kMostValues) {
+    throw bad_axis(text, fmt::format("has {:.6g} values", std::floor(intervals) + 1.0),
+                   fmt::format("at most {:.0f}", kMostValues + 1.0));
+  }
   const int last = static_cast<int>(std::floor(intervals + 1e-9));
   for (int i = 0; i <= last; ++i) axis.values.push_back(fmt::format("{:.12g}", *from + i * *step));
   return axis;
 }
 
 Sweep::Sweep(const SweepInput& input) {
+  require_once(input);
   require_few_points(input.axes);
   const auto data = std::make_shared<Data>(Data{input, make_grid(input.axes), {}});
   for (const auto& point : data->points) {

@@ -109,7 +109,7 @@ int diagnose_command(const DiagnoseOptions& options) {
   }
   if (!options.loop.empty()) return advance(options);
   const MeasurementSet set(options.set, options.bad_rows);
-  Output output(options.output);
+  Output output(options.output, {{"--plan", options.plan}});
   std::optional<OutputFolder> plan;
   if (!options.plan.empty()) plan.emplace(options.plan, options.force);
   const Diagnosis found = [&] {

@@ -121,6 +121,11 @@ void set_mass(const FitRoadLoadOptions& options, RoadLoadFitOptions& to) {
   }
   to.mass_kg = options.mass_kg;
   to.rotating_mass_kg = options.rotating_mass_kg;
+  if (options.rotating_mass_kg.value_or(0.0) > *options.mass_kg) {
+    throw usage_error("more mass rotates than the vehicle has", "--rotating-mass",
+                      fmt::format("{:.6g}", *options.rotating_mass_kg),
+                      fmt::format("at most --mass, {:.6g} kg; of cars about 3 % of it", *options.mass_kg));
+  }
   if (!options.effective_mass_kg.has_value()) return;
   if (options.rotating_mass_kg.has_value() || *options.effective_mass_kg < *options.mass_kg) {
     throw usage_error("--effective-mass is test mass and rotating mass together", "--effective-mass",
@@ -160,13 +165,14 @@ int fit_road_load_command(const FitRoadLoadOptions& options) {
 }
 
 void add_vehicle_options(CLI::App& command, FitRoadLoadOptions& options) {
-  command.add_option("--mass", options.mass_kg, "Test mass, kg")->check(CLI::PositiveNumber);
+  const CLI::Range kMassRange(1.0, 1e6);
+  command.add_option("--mass", options.mass_kg, "Test mass, kg")->check(kMassRange);
   command.add_option("--rotating-mass", options.rotating_mass_kg, "Mass that rotates, kg [3 % of --mass]")
-      ->check(CLI::NonNegativeNumber);
-  command.add_option("--effective-mass", options.effective_mass_kg, "Both together, kg")->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.0, 1e6));
+  command.add_option("--effective-mass", options.effective_mass_kg, "Both together, kg")->check(kMassRange);
   command.add_flag("--per-mass", options.per_mass, "A, B, C per unit of effective mass; no mass needed");
   command.add_option("--drag-area", options.drag_area_m2, "Cd A that the wind acts on, m2 [from C]")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.01, 1000.0));
 }
 
 void add_method_options(CLI::App& command, FitRoadLoadOptions& options) {

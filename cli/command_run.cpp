@@ -23,12 +23,7 @@ int run_command(const RunOptions& options) {
                       options.set_folder,
                       "--out for result and recording; sets come from drum tests, follow_roller and follow_road");
   }
-  if (!options.output.folder.empty() && !options.set_folder.empty() &&
-      is_same_place(options.output.folder, options.set_folder)) {
-    throw usage_error("results and measurement set go to one folder", "--write-set", options.set_folder,
-                      "another folder than that of --out");
-  }
-  Output output(options.output);
+  Output output(options.output, {{"--write-set", options.set_folder}});
   std::optional<OutputFolder> set;
   if (!options.set_folder.empty()) set.emplace(options.set_folder, options.output.force);
   const RunResult result = [&] {

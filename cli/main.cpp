@@ -28,7 +28,8 @@ constexpr const char* kFooter =
     "Exit status: 0 done, 1 a regression differs or a set is doubtful,\n"
     "2 input or usage, 3 the run failed, 70 a mistake in rollrig itself,\n"
     "130 stopped by Ctrl-C. With 2, 3, 70 and 130 nothing is written, except\n"
-    "that a sweep and a folder of sets keep what did not fail with 2 or 3.\n";
+    "for the points of a sweep that did not fail (3), and of several sets\n"
+    "those that could be diagnosed (2 or 3).\n";
 
 /// A command's own examples, below its help.
 void add_examples(const CLI::App& app) {

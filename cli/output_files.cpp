@@ -17,11 +17,10 @@ namespace rollrig::cli {
 namespace {
 
 InputError bad_place(const std::string& what, const OutputFile& file) {
-  return usage_error(what, file.option, file.path, "another file");
+  return usage_error(what, file.option, file.path, "another place");
 }
 
-}  // namespace
-
+/// Whether two names, of files or folders that may not be there yet, mean one place; "-" means standard output.
 bool is_same_place(const std::string& a, const std::string& b) {
   if (a == "-" || b == "-") return a == b;
   // Absolute first: of what is not there yet only the parts that are there become canonical.
@@ -31,16 +30,31 @@ bool is_same_place(const std::string& a, const std::string& b) {
   return full(a) == full(b);
 }
 
+/// Names that are empty are not given.
+void require_apart(const std::vector<OutputFile>& files) {
+  for (auto file = files.begin(); file != files.end(); ++file) {
+    for (auto other = files.begin(); other != file; ++other) {
+      if (other->path.empty() || file->path.empty() || !is_same_place(other->path, file->path)) continue;
+      throw bad_place(fmt::format("{} and {} cannot both go to one place", other->option, file->option), *file);
+    }
+  }
+}
+
+const OutputOptions& require_apart(const OutputOptions& options, std::vector<OutputFile> folders) {
+  folders.insert(folders.begin(), {"--out", options.folder});
+  folders.push_back({"--json", options.json});
+  folders.push_back({"--html", options.html});
+  require_apart(folders);
+  return options;
+}
+
+}  // namespace
+
 OutputFiles::OutputFiles(std::vector<OutputFile> files) : files_(std::move(files)) {
   files_.erase(std::remove_if(files_.begin(), files_.end(), [](const OutputFile& file) { return file.path.empty(); }),
                files_.end());
-  for (auto file = files_.begin(); file != files_.end(); ++file) {
-    for (auto other = files_.begin(); other != file; ++other) {
-      if (!is_same_place(other->path, file->path)) continue;
-      throw bad_place(fmt::format("{} and {} cannot both go to one place", other->option, file->option), *file);
-    }
-    require_writable(file->path);
-  }
+  require_apart(files_);
+  for (const OutputFile& file : files_) require_writable(file.path);
   require_no_input();
 }
 
@@ -76,8 +90,8 @@ void OutputOptions::add_to(CLI::App& command, const char* json_doc, const char* 
   command.add_flag("--quiet", quiet, "Print nothing but errors");
 }
 
-Output::Output(const OutputOptions& options)
-    : options_(options),
+Output::Output(const OutputOptions& options, std::vector<OutputFile> folders)
+    : options_(require_apart(options, std::move(folders))),
       folder_(options.folder.empty() ? std::nullopt
                                      : std::optional<OutputFolder>(std::in_place, options.folder, options.force)),
       files_({{"--json", options.json}, {"--html", options.html}}) {}

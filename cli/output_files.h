@@ -13,14 +13,11 @@
 
 namespace rollrig::cli {
 
-/// An option that names a file to write, and what was given; empty where nothing was.
+/// An option that names a file or folder to write, and what was given; empty where nothing was.
 struct OutputFile {
   const char* option;
   std::string path;
 };
-
-/// Whether two names, of files or folders that may not be there yet, mean one place; "-" means standard output.
-bool is_same_place(const std::string& a, const std::string& b);
 
 /// The files of one command. An older file at such a place is replaced, as a compiler does, so that a command can be
 /// given again; only what the command itself reads is not.
@@ -64,8 +61,9 @@ struct OutputOptions {
 /// none is.
 class Output {
  public:
-  /// Throws InputError as OutputFolder and OutputFiles do.
-  explicit Output(const OutputOptions& options);
+  /// `folders` are those beside --out that the command fills. Throws InputError as OutputFolder and OutputFiles do, and
+  /// where two of all files and folders go to one place.
+  explicit Output(const OutputOptions& options, std::vector<OutputFile> folders = {});
 
   /// Throws InputError where a file to be written has been read; stage() does so as well.
   void require_no_input() const { files_.require_no_input(); }

@@ -16,16 +16,20 @@ namespace fs = std::filesystem;
 namespace rollrig::estimation {
 namespace {
 
-constexpr Range kSpeedRange = between(0.0, 400.0);  // km/h
+constexpr Range kSpeedRange = between(0.0, 400.0);      // km/h
+constexpr Range kInertiaRange = between(1e-4, 1e9);     // kg m2, as of a rig file
+constexpr Range kDiameterRange = between(0.1, 1000.0);  // m, likewise
+constexpr Range kRadiusRange = between(0.01, 10.0);     // m
+constexpr Range kPulsesRange = between(1e-3, 1e9);
 constexpr double kDefaultSpeeds_km_h[] = {40.0, 60.0, 80.0, 100.0};
 
 void read_drum(TableReader& top, CoastSet& set) {
   const ConfigTable* table = top.table("drum");
   if (table == nullptr) throw top.problem("drum", "the set has no [drum]", "[drum] with diameter_m");
   TableReader reader(*table, "[drum]");
-  set.drum_diameter_m = reader.number({"diameter_m", positive(), "Diameter"});
-  set.drum_inertia_kg_m2 = reader.number_or_none({"inertia_kg_m2", positive(), "I_D"});
-  if (const auto pulses = reader.number_or_none({"pulses_per_revolution", positive(), ""})) {
+  set.drum_diameter_m = reader.number({"diameter_m", kDiameterRange, "Diameter"});
+  set.drum_inertia_kg_m2 = reader.number_or_none({"inertia_kg_m2", kInertiaRange, "I_D"});
+  if (const auto pulses = reader.number_or_none({"pulses_per_revolution", kPulsesRange, ""})) {
     set.drum_pulse_length_m = boost::math::constants::pi<double>() * set.drum_diameter_m / *pulses;
   }
   reader.finish();
@@ -35,10 +39,10 @@ void read_wheel(TableReader& top, CoastSet& set) {
   const ConfigTable* table = top.table("wheel");
   if (table == nullptr) return;
   TableReader reader(*table, "[wheel]");
-  set.wheel_inertia_kg_m2 = reader.number_or_none({"inertia_kg_m2", positive(), "I_T"});
-  set.wheel_rolling_radius_m = reader.number_or_none({"rolling_radius_m", positive(), "R_r"});
+  set.wheel_inertia_kg_m2 = reader.number_or_none({"inertia_kg_m2", kInertiaRange, "I_T"});
+  set.wheel_rolling_radius_m = reader.number_or_none({"rolling_radius_m", kRadiusRange, "R_r"});
   set.wheel_mass_ratio = reader.number_or_none({"mass_ratio", between(0.0, 1.0), "mu"});
-  const auto pulses = reader.number_or_none({"pulses_per_revolution", positive(), ""});
+  const auto pulses = reader.number_or_none({"pulses_per_revolution", kPulsesRange, ""});
   if ((set.wheel_inertia_kg_m2.has_value() || pulses.has_value()) && !set.wheel_rolling_radius_m.has_value()) {
     throw reader.problem("rolling_radius_m", "the wheel's inertia and pulses ask for its rolling radius", "> 0");
   }
