@@ -165,7 +165,7 @@ int fit_road_load_command(const FitRoadLoadOptions& options) {
 }
 
 void add_vehicle_options(CLI::App& command, FitRoadLoadOptions& options) {
-  const CLI::Range kMassRange(1.0, 1e6);
+  const CLI::Range kMassRange(1.0, 1e6);  // Assumed: a heavy dump truck has 6e5 kg
   command.add_option("--mass", options.mass_kg, "Test mass, kg")->check(kMassRange);
   command.add_option("--rotating-mass", options.rotating_mass_kg, "Mass that rotates, kg [3 % of --mass]")
       ->check(CLI::Range(0.0, 1e6));

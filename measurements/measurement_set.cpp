@@ -81,7 +81,8 @@ void read_run_table(TableReader& reader, RunTable& run) {
   run.session = reader.text("session");
   run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", models::kTemperatureRange, ""});
   run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
-  run.rest_before_s = reader.number_or_none({"rest_before_min", between(0.0, 1e7), ""});
+  constexpr double kLongestRest_min = 1e7;  // Assumed: 19 years
+  run.rest_before_s = reader.number_or_none({"rest_before_min", between(0.0, kLongestRest_min), ""});
   run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
   run.force_at_standstill = reader.flag_or("force_at_standstill", false);
 }

@@ -13,14 +13,15 @@ namespace {
 
 SensorParameters read_sensor(TableReader& reader, const Quantity& channel) {
   SensorParameters sensor;
+  constexpr double kMost = 1e6;                       // Assumed: in any unit of a channel, no sensor is so bad
+  constexpr Range kDriftTime_s = between(1e-3, 1e9);  // Assumed: from a millisecond to 30 years
   // A standard deviation in the unit of the channel is a difference: the factor without the offset.
-  constexpr double kMost = 1e6;  // Assumed: in any unit of a channel, no sensor is so bad
   const auto in_channel_unit = [&](const char* key, const char* doc) {
     return reader.number({key, between(0.0, kMost), doc}) * channel.file_unit().factor;
   };
   sensor.offset_sd = in_channel_unit("offset_sd", "constant over a session");
   sensor.drift_sd = in_channel_unit("drift_sd", "first-order autoregressive drift");
-  sensor.drift_time_s = reader.number({"drift_time_s", between(1e-3, 1e9), "its time constant"});
+  sensor.drift_time_s = reader.number({"drift_time_s", kDriftTime_s, "its time constant"});
   sensor.noise_sd = in_channel_unit("noise_sd", "white, per sample");
   sensor.resolution = in_channel_unit("resolution", "quantization step, 0 for none");
   reader.finish();

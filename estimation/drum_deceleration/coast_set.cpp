@@ -19,8 +19,8 @@ namespace {
 constexpr Range kSpeedRange = between(0.0, 400.0);      // km/h
 constexpr Range kInertiaRange = between(1e-4, 1e9);     // kg m2, as of a rig file
 constexpr Range kDiameterRange = between(0.1, 1000.0);  // m, likewise
-constexpr Range kRadiusRange = between(0.01, 10.0);     // m
-constexpr Range kPulsesRange = between(1e-3, 1e9);
+constexpr Range kRadiusRange = between(0.01, 10.0);     // m. Assumed: from a kart to a mining truck
+constexpr Range kPulsesRange = between(1e-3, 1e9);      // Assumed: from one in a thousand turns to a fine encoder
 constexpr double kDefaultSpeeds_km_h[] = {40.0, 60.0, 80.0, 100.0};
 
 void read_drum(TableReader& top, CoastSet& set) {
