@@ -31,7 +31,7 @@ ProgressLine::ProgressLine(std::string label, bool quiet)
 
 ProgressLine::~ProgressLine() { clear(); }
 
-// By spaces, since not every terminal knows the escape sequence.
+// Overwrites with spaces, since not every terminal knows the escape sequence.
 void ProgressLine::clear() {
   if (shown_ > 0) fmt::print(stderr, "\r{:{}}\r", "", shown_);
   shown_ = 0;
@@ -47,7 +47,7 @@ bool ProgressLine::is_due() {
 void ProgressLine::update(double done, const std::string& stage) {
   if (!active_) return;
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (done < done_) start_ = Clock::now();  // it begins again
+  if (!(done >= done_)) start_ = Clock::now();  // it begins again, or its length was or is not known
   done_ = done;
   if (done >= 1.0 || !is_due()) return;
   const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();
