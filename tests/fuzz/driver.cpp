@@ -70,7 +70,8 @@ bool fuzz_target(const Target& target, const Options& options) {
   if (ended.empty()) return true;
   const std::string input = watched.last_input();
   const fs::path file = fs::path(options.out) / fmt::format("{}-{}", target.name, calc_sha256(input).substr(0, 12));
-  std::ofstream(file, std::ios::binary) << input;
+  fs::create_directories(options.out);
+  if (!(std::ofstream(file, std::ios::binary) << input)) throw std::runtime_error("cannot write " + file.string());
   std::cout << fmt::format("{}: {}, by the input in {}\n", target.name, ended, file.string());
   return false;
 }
