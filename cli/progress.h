@@ -1,5 +1,5 @@
 #pragma once
-/// Progress of what takes longer than two seconds on a terminal, and than ten seconds in a log.
+/// Shows the progress of a command that takes longer than 2 s on a terminal, or 10 s in a log.
 
 #include <chrono>
 #include <mutex>
@@ -9,8 +9,8 @@
 
 namespace rollrig::cli {
 
-/// Writes to standard error. On a terminal, one line that is updated, once two seconds have passed. Elsewhere, as in
-/// the log of a CI job, a new line once ten seconds have passed, and then one a minute.
+/// Writes to standard error. On a terminal, it updates one line, from 2 s on. Elsewhere, as in the log of a CI job, it
+/// writes a line after 10 s and then one each minute.
 class ProgressLine {
  public:
   ProgressLine(std::string label, bool quiet);
@@ -18,10 +18,10 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Shows how far the work is, how long it will take, and `stage`: `done` goes from 0 to 1, and is NaN where the
+  /// Shows the share that is done, the time that is left, and `stage`. `done` goes from 0 to 1, and is NaN where the
   /// length of the work is not known. May be called from several threads.
   void update(double done, const std::string& stage = "");
-  /// Takes the line away, before a result is printed.
+  /// Takes the line away, before a result is printed. Not while update() may be called.
   void clear();
   /// A callback for calls of the API.
   Progress callback();

@@ -16,7 +16,8 @@
 
 namespace rollrig::sim {
 
-/// Called now and then with the share of the program's time that is done, 0 to 1.
+/// Called after each step with the share of the planned time that has passed, 0 to 1. The last value is below 1 if a
+/// phase ends early.
 using Progress = std::function<void(double done)>;
 
 namespace detail {
@@ -54,7 +55,7 @@ class Sampler {
     skip_until_s_ = phase.until.has_value() ? start_s_ : phase_end_s - 2.0 * interval_s_;
   }
 
-  /// Takes over from the integrator's last step what became known; `segment_end_s` bounds row times.
+  /// Fills the rows that the last step of the integrator has reached; `segment_end_s` bounds row times.
   void follow(Integrator<S>& integrator, double segment_end_s) {
     while (true) {
       const double row_s = time_of(next_);
@@ -90,8 +91,8 @@ class Sampler {
     if (times_s.empty()) return start_s_ + static_cast<double>(k) * interval_s_;
     return k < static_cast<long>(times_s.size()) ? times_s[static_cast<std::size_t>(k)] : kNever_s;
   }
-  /// By how much the time of sample k may miss a segment's end and still count as there: rounding. A quarter of the
-  /// distance to the samples about it at most, so that an end has one sample and none is left out.
+  /// Tolerance for rounding: a sample that is so close to the end of a segment counts as at the end. At most a quarter
+  /// of the distance to its neighbors, so that an end has one sample and none is left out.
   double slack_at(long k) const {
     const double before_s = k > 0 ? time_of(k) - time_of(k - 1) : kNever_s;
     return std::min(kMostSlack_s, 0.25 * std::min(before_s, time_of(k + 1) - time_of(k)));
@@ -211,8 +212,7 @@ EnergyAudit make_audit(const OdeSystem<S>& system, const std::vector<S>& stored_
 
 /// Runs `program` on `system` with `integrator`.
 /// Errors  RunFailure when the integration fails or the system is in a state that it cannot have; Interrupted on
-///         Ctrl-C. The audits are in the recording;
-///         the caller says what closure it asks for.
+///         Ctrl-C. The recording contains the audits. The caller checks how well they close.
 template <class S>
 Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Program& program,
                       const Progress& progress = {}) {

@@ -20,8 +20,8 @@ using measurements::MeasurementSet;
 
 constexpr double kUncompared = 1.05;  // just outside
 
-/// The tolerance of a channel as a function of row and simulated value: what is looked up once is not looked up again
-/// for each row.
+/// The tolerance of a channel as a function of row and simulated value. Column and kind are looked up once, not for
+/// each row.
 std::function<double(std::size_t row, double simulated)> make_tolerance_law(const MeasurementSet& set,
                                                                             const MeasuredRun& run,
                                                                             const Quantity& channel) {
@@ -44,7 +44,7 @@ std::function<double(std::size_t row, double simulated)> make_tolerance_law(cons
   };
 }
 
-/// Of one sample, what its sensor makes of its own.
+/// Standard deviation of one sample from the noise and drift of its sensor.
 double calc_noise(const MeasurementSet& set, const Quantity& channel) {
   const auto sensor = set.sensors.find(channel);
   return sensor == set.sensors.end() ? 0.0 : std::hypot(sensor->second.noise_sd, sensor->second.drift_sd);
@@ -79,7 +79,7 @@ ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& 
   return misfit;
 }
 
-/// The misfit of a run simulated again, or why it cannot be; `recording` is filled where it can.
+/// Simulates a run again. Returns its misfit, or the reason why it cannot be simulated; fills `recording` where it can.
 RunMisfit try_baseline(const MeasurementSet& set, const MeasuredRun& run, sim::Recording<double>& recording) {
   try {
     recording = resimulate_baseline(set, run);
@@ -122,7 +122,8 @@ double RunMisfit::worst() const {
 }
 
 double RunMisfit::sum_of_squares() const {
-  constexpr double kChannels = 4.0;  // Assumed: of so many the misfit counts as the largest
+  constexpr double kChannels =
+      4.0;  // Assumed: a run that cannot be simulated counts as so many with the largest misfit
   if (!failure.empty()) return kLargestMisfit * kLargestMisfit * kChannels;
   double sum = 0.0;
   for (const ChannelMisfit& channel : channels) sum += channel.rms * channel.rms;

@@ -40,9 +40,12 @@ constexpr double kLargestMisfit = 10.0;
 /// How far a run lies from its simulation, in units of what uncertain parameters and effects of the
 /// catalog can make.
 /// Equation  u = (y - h)/tolerance; tolerance of a force as the set's kind has it (of a drum's torque
-///           20 N R + 0.3 |h|), of a temperature 5 K + 0.4 |h - T_amb|, of a pressure 15 kPa + 0.4 |h - p_cold|
-/// Symbols   y measured, h simulated, R drum radius [m]
-///           A force with samples of which none can be compared counts as just outside: its speed may not be one.
+///           20 N R + 0.3 |h|), of a temperature 5 K + 0.4 |h - T_amb|, of a pressure 15 kPa + 0.4 |h - p_cold|, of a
+///           second reading of load or speed as find_reference_tolerance() has it. rms^2 = mean of u^2 less that of
+///           (s/tolerance)^2, and not below 0
+/// Symbols   y measured, h simulated, R drum radius [m], s noise and drift of one sample
+/// Validity  A channel that has samples but none that can be compared counts as just outside (1.05): its speed column
+///           may be wrong.
 /// Source    Assumed: an effect at the upper end of its prior, with the pressure record off by 15 kPa and the air
 ///           at the tire by 6 K, stays below 1; of draws from the priors at most 1 in 100 is above 2
 /// Checked   tests/diagnosis/set_checks_test.cpp, tests/diagnosis/wrong_columns_test.cpp

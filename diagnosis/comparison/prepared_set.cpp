@@ -43,14 +43,14 @@ void add_standstill_rows(const measurements::MeasuredRun& run, const std::vector
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 }
 
-/// In proportion to the recorded time of a long set, so that the number of blocks is bounded.
+/// 10 s, and in a long set longer in proportion to the recorded time, so that the number of blocks hardly grows.
 double find_block_length_s(const measurements::MeasurementSet& set) {
   double recorded_s = 0.0;
   for (const measurements::MeasuredRun& run : set.runs) recorded_s += run.time_s.back() - run.time_s.front();
   return kShortBlock_s * std::max(1.0, recorded_s / kShortBlocksUpTo_s);
 }
 
-/// Blocks of samples: not longer than `length_s`, in one phase, and without a gap inside that is longer than a block.
+/// Blocks of samples of one phase. The last sample of a block is less than `length_s` after the first.
 std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::vector<double>& time_s,
                                const std::vector<std::size_t>& phase, double length_s) {
   std::vector<Block> blocks;

@@ -28,11 +28,11 @@ struct Series {
   std::vector<std::size_t> phase;  // of each block, index into the run's phases
   std::vector<double> measured;    // block means, SI
   Whitener whitener;
-  double floor = 0.0;              // standard deviation of a full block's mean, without offset
+  double floor = 0.0;              // noise floor: median of the blocks' standard deviations, without the offset
   std::size_t first_residual = 0;  // index of its first residual
 
   std::size_t size() const { return blocks.size(); }
-  /// Of a column or columns over the residuals of the whole set, those of this series.
+  /// The rows of this series in a vector or matrix over all residuals.
   template <class Columns>
   auto rows_of(Columns& columns) const {
     return columns.middleRows(to_index(first_residual), to_index(size()));
@@ -55,16 +55,17 @@ struct PreparedRun {
 /// What a test may read beyond a measurement set's columns.
 struct ExtraReadings {
   bool force_at_standstill = false;  // where the surface stands: the sensor's zero
-  std::vector<Quantity> sensors;     // channels of sensors that the rig has not (rig_sensors.h)
+  std::vector<Quantity> sensors;     // channels of sensors that the rig does not have (rig_sensors.h)
 };
 
 /// Throws InputError where the sensor of a channel has no noise at all.
 void require_noise(const measurements::MeasurementSet& set, const Quantity& channel);
 
-/// Runs are put in the order of their ids, so that the order in the file does not matter.
-/// Blocks are 10 s long and end where a phase or an averaging gap does. In sets of more than 24 recorded hours they are
-/// longer, in proportion to the recorded time, so that memory is bounded. What depends on the kind of the set
-/// (kinds/measurement_kind.h): which rows are compared, the phases, how a run is simulated.
+/// Runs are put in the order of their ids, so that the order in the file does not matter. A block ends at the end of a
+/// phase, or before the first sample that is 10 s or more after the first sample of the block. In sets of more than 24
+/// recorded hours, blocks are longer in proportion, so that their number hardly grows with the recorded time. The kind
+/// of the set (kinds/measurement_kind.h) decides which rows are compared, what the phases are, and how a run is
+/// simulated.
 /// Errors  InputError: no sample in any channel; a sensor without any noise; what the set's kind needs is not there
 class PreparedSet {
  public:
@@ -81,7 +82,7 @@ class PreparedSet {
   std::size_t residual_count() const { return residual_count_; }
   /// 10 s times the recorded hours / 24, and at least 10 s.
   double block_length_s() const { return block_length_s_; }
-  /// Block means of every series, SI units, one a residual.
+  /// Block means of every series, SI units, one for each residual.
   const Eigen::VectorXd& measured() const { return measured_; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace rollrig::diagnosis {
 
-/// Ten lines, longer ones on several: verdict and probability; the cause with its size; what it cannot be
+/// A line each, longer ones on several: verdict and probability; the cause with its size; what it cannot be
 /// told from, or what it means; where; which equation; the gap in noise floors and in units; shrinkage on
 /// runs that the fit did not see; what is not excluded; the next test. Then what N of a torque are, objections and
 /// warnings.

@@ -26,8 +26,8 @@ std::string allow(const std::string& allowed, const CsvForm& form) {
   return form.hint.empty() ? allowed : allowed + "; " + form.hint;
 }
 
-/// Asked where something is wrong with a line: whether it is a remark, of which there can be none. A lone # is the name
-/// of a counter.
+/// Called for a line that is wrong. Throws InputError if the line is a comment, of which a CSV file has none. A lone #
+/// may be the name of a column that counts.
 void require_no_comment(const std::string& first, const std::string& path, int line, const CsvForm& form) {
   if (first.size() < 2 || (first.front() != '#' && first.front() != '%')) return;
   throw InputError({"a comment, of which this file can have none", path, line, "", first.substr(0, 60),

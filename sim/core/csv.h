@@ -31,8 +31,9 @@ constexpr std::size_t kMostColumns = 10000;  // Assumed: of one table; loggers h
 class CsvTable {
  public:
   /// Reads a file. Throws InputError: see read_text_file, and no header, a header without rows, more than kMostColumns
-  /// columns, ragged rows, a quote that never ends, a column named twice. With `problems`, each row is one line, and
-  /// rows that are ragged or have a quote that does not end are left out.
+  /// columns, a column without a name or named twice, fields that are separated by something else, ragged rows, a quote
+  /// that never ends. With `problems`, each row is one line, rows that are ragged or have a quote that does not end are
+  /// left out, and the table may have no rows.
   static CsvTable read(const std::string& path, const CsvForm& form = {}, RowProblems* problems = nullptr);
 
   /// A table of cells that a file of another format holds, column by column; row i is "line" i + 1.
@@ -60,10 +61,10 @@ class CsvTable {
   /// it is wrong. Blanks around a number are passed over.
   std::vector<double> plain_numbers(const std::string& column, const std::vector<std::string>& missing,
                                     RowProblems* problems = nullptr) const;
-  /// The time column: numbers that increase from row to row. Rows that do not are those outside the longest sequence
-  /// that does; with `problems`, they keep their times.
+  /// The time column: numbers that increase from row to row. A row is wrong if it is outside the longest sequence that
+  /// increases. With `problems`, wrong rows keep their times.
   std::vector<double> increasing_times(const std::string& column, RowProblems* problems = nullptr) const;
-  /// What is wrong with times of a column that do not increase; none where they do. NaN is passed over.
+  /// What is wrong with times of a column that do not increase. Empty if all do. NaN is passed over.
   RowProblems find_wrong_times(const std::string& column, const std::vector<double>& times) const;
 
  private:
@@ -73,7 +74,7 @@ class CsvTable {
   void store_row(int line, const std::vector<std::string>& cells);
   std::string_view cell(std::size_t row, std::size_t column) const;
   std::size_t find_column(const std::string& column) const;
-  /// Calls `parse`; what it throws is added to `problems` where they are asked for, and NaN returned.
+  /// Returns what `parse` returns. With `problems`, an InputError is added to them, and NaN is returned.
   template <class Parse>
   static double parse_or_note(RowProblems* problems, const Parse& parse);
   double parse_cell(std::size_t row, const Field& field, std::string_view cell) const;

@@ -280,7 +280,7 @@ TEST_CASE("a probability is never rounded to certainty", "[fast]") {
   CHECK_THAT(line_of(format_summary(made), "Verdict"), Contains("over 99 %") && Contains("under 1 %"));
 }
 
-TEST_CASE("docs/diagnosis.md shows the ten lines as they are printed", "[fast]") {
+TEST_CASE("docs/diagnosis.md shows the summary as it is printed", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.causes[0].indistinguishable_from = {"tire_loss_in_skim"};
   const std::string page = tests::read_file(ROLLRIG_SOURCE_DIR "/docs/diagnosis.md");

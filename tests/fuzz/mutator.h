@@ -9,8 +9,8 @@ namespace rollrig::fuzz {
 
 using Engine = boost::random::mt19937_64;
 
-/// An input that differs from `input` in one to eight places, at most `most_bytes` long. `other` is one of the same
-/// sort, from which parts may be taken.
+/// `input` with one to eight changes, at most `most_bytes` long. `other` is another input of the same reader, from
+/// which parts may be taken.
 std::string mutate(const std::string& input, const std::string& other, std::size_t most_bytes, Engine& engine);
 
 }  // namespace rollrig::fuzz

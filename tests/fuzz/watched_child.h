@@ -1,5 +1,5 @@
 #pragma once
-/// Work in a child process, of which the parent learns how it ended, and by which input.
+/// Runs work in a child process. The parent learns how it ended and which input ended it.
 
 #include <functional>
 #include <string>
@@ -8,7 +8,7 @@ namespace rollrig::fuzz {
 
 constexpr std::size_t kMostInput_B = 1 << 18;
 
-/// What the child shows the parent while it works.
+/// The child process, and what it shows the parent while it works.
 class Watched {
  public:
   Watched();
@@ -20,7 +20,8 @@ class Watched {
   void begin(const std::string& input, unsigned most_s);
   void end();
 
-  /// Runs `work` in a child with so much memory beyond what libraries take. Empty where it returns, else how it ended.
+  /// Runs `work` in a child that may take `most_memory_B` beyond its libraries. Returns an empty string if `work`
+  /// returns, else how the child ended.
   std::string run(const std::function<void()>& work, std::size_t most_memory_B);
 
   std::size_t executions() const;
