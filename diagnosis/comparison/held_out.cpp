@@ -120,10 +120,12 @@ Prediction LeaveOut::predict_without(const LeftOutPart& part, Simulated which) c
   const Eigen::Index n = said.cols() - 1;
   RowMatrix jacobian = said.leftCols(n);
   const Eigen::MatrixXd curvature = curvature_ - jacobian.transpose() * jacobian;
-  const Eigen::VectorXd aim = jacobian * candidate_.fit.unknowns - said.col(n);
+  const bool is_compared = said.rows() > 0;  // else there is no column that could be pointed at
+  Eigen::VectorXd aim = jacobian * candidate_.fit.unknowns;
+  if (is_compared) aim -= said.col(n);
   Prediction prediction;
   prediction.unknowns = solve_within_bounds(model_, curvature, gradient_ - jacobian.transpose() * aim);
-  if (!part.phase.has_value()) {
+  if (is_compared && !part.phase.has_value()) {
     jacobian.rightCols(n - to_index(model_.parameter_count())).setZero();
     take_off_offsets(part.run, jacobian);
   }
