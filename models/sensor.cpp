@@ -15,6 +15,7 @@ SensorParameters read_sensor(TableReader& reader, const Quantity& channel) {
   SensorParameters sensor;
   constexpr double kMost = 1e6;                       // Assumed: in any unit of a channel, no sensor is so bad
   constexpr Range kDriftTime_s = between(1e-3, 1e9);  // Assumed: from a millisecond to 30 years
+
   // A standard deviation in the unit of the channel is a difference: the factor without the offset.
   const auto in_channel_unit = [&](const char* key, const char* doc) {
     return reader.number({key, between(0.0, kMost), doc}) * channel.file_unit().factor;
