@@ -30,7 +30,7 @@ bool is_same_place(const std::string& a, const std::string& b) {
   return full(a) == full(b);
 }
 
-/// Names that are empty are not given.
+/// Throws InputError where two of them mean one place. An empty path means that the option was not given.
 void require_apart(const std::vector<OutputFile>& files) {
   for (auto file = files.begin(); file != files.end(); ++file) {
     for (auto other = files.begin(); other != file; ++other) {

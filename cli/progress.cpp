@@ -47,7 +47,7 @@ bool ProgressLine::is_due() {
 void ProgressLine::update(double done, const std::string& stage) {
   if (!active_) return;
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!(done >= done_)) start_ = Clock::now();  // it begins again, or its length was or is not known
+  if (!(done >= done_)) start_ = Clock::now();  // it begins again, or `done` is or was NaN
   done_ = done;
   if (done >= 1.0 || !is_due()) return;
   const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();

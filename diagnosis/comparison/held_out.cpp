@@ -120,7 +120,7 @@ Prediction LeaveOut::predict_without(const LeftOutPart& part, Simulated which) c
   const Eigen::Index n = said.cols() - 1;
   RowMatrix jacobian = said.leftCols(n);
   const Eigen::MatrixXd curvature = curvature_ - jacobian.transpose() * jacobian;
-  const bool is_compared = said.rows() > 0;  // else there is no column that could be pointed at
+  const bool is_compared = said.rows() > 0;  // else the matrix is empty, and no column of it may be referred to
   Eigen::VectorXd aim = jacobian * candidate_.fit.unknowns;
   if (is_compared) aim -= said.col(n);
   Prediction prediction;

@@ -1,10 +1,9 @@
 #include "scenarios/common/drum_bench.h"
 
-#include <cmath>
-
 #include "rigs/multibody_drum.h"
 #include "rigs/quasi_static_drum.h"
 #include "rigs/trace_effects.h"
+#include "scenarios/common/least_damping.h"
 #include "scenarios/run/fidelity.h"
 
 namespace rollrig::scenarios {
@@ -29,25 +28,14 @@ void fill_set_starts(const sim::Recording<double>& recording, std::vector<SetRun
   }
 }
 
-/// With hardly any damping, the carriage bounces on the tire through the whole test: the integrator then follows some
-/// ten steps of each oscillation for hours of simulated time.
-/// Validity  c >= 0.05 * 2 sqrt(k m), with k the vertical stiffness of the tire and m the carriage with the wheel.
-///           Assumed: as for the suspension of a vehicle
+/// See require_damping(): the carriage with the wheel, on the vertical spring of the tire.
 void check_carriage_damping(const RunSpec& spec) {
-  constexpr double kLeastRatio = 0.05;
   if (spec.fidelity != Fidelity::kMultibody || !spec.tire.has_stiffness) return;
   const models::TireParameters<double>& tire = spec.tire.values;
-  const double moving_kg = spec.rig.carriage.mass_kg + tire.geometry.mass_kg + tire.geometry.wheel_mass_kg;
-  const double critical = 2.0 * std::sqrt(tire.stiffness.vertical_N_per_m * moving_kg);
-  const double ratio = spec.rig.carriage.damping_N_s_per_m / critical;
-  if (ratio >= kLeastRatio) return;
-  throw InputError(
-      {fmt::format("the carriage has {:.2g} of critical damping: it would bounce on the tire through the whole test",
-                   ratio),
-       spec.rig.path, 0, "damping_N_s_per_m", fmt::format("{:g}", spec.rig.carriage.damping_N_s_per_m),
-       fmt::format("at least {:.0f} N s/m, {} of critical damping, or --fidelity quasi_static",
-                   std::ceil(kLeastRatio * critical), kLeastRatio),
-       ""});
+  const rigs::CarriageParameters& carriage = spec.rig.carriage;
+  require_damping({"the carriage", "it would bounce on the tire", spec.rig.path, carriage.damping_N_s_per_m,
+                   tire.stiffness.vertical_N_per_m,
+                   carriage.mass_kg + tire.geometry.mass_kg + tire.geometry.wheel_mass_kg});
 }
 
 }  // namespace

@@ -148,8 +148,8 @@ bool has_two_values(const std::vector<double>& x);
 /// Slope of ln y over ln x by least squares; both positive, two points at least.
 double fit_power(const std::vector<double>& x, const std::vector<double>& y);
 
-/// What a sweep says where a resistance is not positive, as one that is read with a large error of a sensor may be: then
-/// no power of load or pressure describes it. Nothing where all are positive.
+/// The warning of a sweep in which a resistance is not positive, so that no power law describes it: a large error of a
+/// sensor may be the reason. Nothing where all are positive.
 std::optional<std::string> warn_of_no_power(const std::vector<double>& loss_N);
 
 /// Mean of the cycles of one point: torque, skim, F_r, RRc and what is unsettled averaged; temperatures and windows of

@@ -1,12 +1,11 @@
 #include "scenarios/common/vehicle_conditions.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "models/vehicle/vehicle.h"
 #include "models/wheel/rolling_wheel.h"
 #include "scenarios/common/iso_coefficient.h"
+#include "scenarios/common/least_damping.h"
 #include "scenarios/common/recorded_inputs.h"
 
 namespace rollrig::scenarios {
@@ -36,29 +35,16 @@ void check_wheels(const RunSpec& spec) {
        fmt::format("at least {:.1f} kg, or a smaller spin_inertia_kg_m2 of the tire", wheels_kg), ""});
 }
 
-/// With hardly any damping, the vehicle bounces on its springs through the whole test: the integrator then follows some
-/// ten steps of each oscillation of body and axles for hours of simulated time.
-/// Validity  c >= 0.05 * 2 sqrt(k m) for each wheel's suspension, with m its part of the sprung mass. Assumed: dampers of
-///           cars have 0.2 to 0.4 of critical damping, worn ones 0.1
+/// See require_damping(): for each wheel, its part of the sprung mass on its suspension.
 void check_damping(const RunSpec& spec) {
-  constexpr double kLeastRatio = 0.05;
   if (spec.fidelity != Fidelity::kMultibody) return;
   const rigs::VehicleFile& vehicle = *spec.vehicle;
   for (const rigs::VehicleAxle& axle : vehicle.axles) {
     const double load_N = axle.load_share * vehicle.body.mass_kg * kStandardGravity_m_s2 / axle.wheels;
     const double unsprung_N = rigs::calc_unsprung_N(axle.suspension, rigs::tire_of(axle, spec.tire).values);
-    const double sprung_kg = (load_N - unsprung_N) / kStandardGravity_m_s2;
-    const double critical = 2.0 * std::sqrt(axle.suspension.stiffness_N_per_m * sprung_kg);
-    const double ratio = axle.suspension.damping_N_s_per_m / critical;
-    if (ratio >= kLeastRatio) continue;
-    throw InputError(
-        {fmt::format("the suspension of axle '{}' has {:.2g} of critical damping: the vehicle would bounce "
-                     "through the whole test",
-                     axle.name, ratio),
-         vehicle.path, 0, "damping_N_s_per_m", fmt::format("{:g}", axle.suspension.damping_N_s_per_m),
-         fmt::format("at least {:.0f} N s/m, {} of critical damping, or --fidelity quasi_static",
-                     std::ceil(kLeastRatio * critical), kLeastRatio),
-         ""});
+    require_damping({fmt::format("the suspension of axle '{}'", axle.name), "the vehicle would bounce", vehicle.path,
+                     axle.suspension.damping_N_s_per_m, axle.suspension.stiffness_N_per_m,
+                     (load_N - unsprung_N) / kStandardGravity_m_s2});
   }
 }
 

@@ -82,7 +82,7 @@ class CsvTable {
   std::string path_;
   CsvForm form_;
   std::vector<std::string> columns_;
-  // All cells in one text, row by row: a string for each would take several times the memory of a large file.
+  // All cells in one string, row by row: a string for each cell would take several times the memory.
   std::string cells_;
   std::vector<std::uint32_t> cell_ends_;  // of each cell in cells_
   std::vector<int> lines_;                // of each row

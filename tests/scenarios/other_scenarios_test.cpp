@@ -158,7 +158,7 @@ TEST_CASE("a power is fitted exactly to a power", "[fast]") {
         Approx(-0.4));
 }
 
-TEST_CASE("a sweep with a resistance that is read below zero has no power, and says why", "[fast]") {
+TEST_CASE("a sweep with a resistance that is read below zero has no exponent, and says why", "[fast]") {
   for (const auto& [scenario, exponent] : {std::pair("pressure_sweep", "steady_state_pressure_exponent"),
                                            std::pair("load_sweep", "steady_state_load_exponent")}) {
     INFO(scenario);
