@@ -188,13 +188,15 @@ Candidate* find_nearest_smaller(Comparison& comparison, const Candidate& larger)
 }
 
 /// Moves to hypotheses with one effect less what their last effect may be an error of their law.
-void weigh_law_errors(Comparison& comparison) {
+void weigh_law_errors(const Study& study, Comparison& comparison) {
   for (std::size_t terms = kMostTerms; terms > 1; --terms) {
     for (Candidate& larger : comparison.candidates) {
       if (larger.fit.hypothesis.terms.size() != terms || larger.fit.hypothesis.has_unknown()) continue;
       Candidate* smaller = find_nearest_smaller(comparison, larger);
       if (smaller == nullptr) continue;
-      const double moved = calc_law_error(larger.log_evidence - smaller->log_evidence) * larger.probability;
+      const double law_error =
+          calc_law_error(larger.log_evidence - smaller->log_evidence, smaller->log_evidence - study.null.log_evidence);
+      const double moved = law_error * larger.probability;
       larger.probability -= moved;
       smaller->probability += moved;
     }
@@ -233,9 +235,12 @@ double find_prior(const StudySettings& settings, const Hypothesis& hypothesis) {
   return settings.priors.family_beside / families * find_prior(settings, hypothesis.terms.size() - 1);
 }
 
-double calc_law_error(double gain_nats) {
-  const double in_scale = std::max(0.0, gain_nats) / thresholds::kLawError_nats;
-  const double odds = thresholds::kLawErrorOdds * std::exp(-0.5 * in_scale * in_scale);
+double calc_law_error(double gain_nats, double gain_of_others_nats) {
+  const double gain = std::max(0.0, gain_nats);
+  const double in_scale = gain / thresholds::kLawError_nats;
+  const double share = std::sqrt(gain / std::max(1.0, gain_of_others_nats));
+  const double in_share = share / thresholds::kLawErrorShare;
+  const double odds = thresholds::kLawErrorOdds * std::exp(-0.5 * (in_scale * in_scale + in_share * in_share));
   return odds / (1.0 + odds);
 }
 
@@ -270,7 +275,7 @@ Comparison compare_models(Study& study) {
                comparison);
     assign_probabilities(study, comparison);
   }
-  weigh_law_errors(comparison);
+  weigh_law_errors(study, comparison);
   screen_on_top_of_likeliest(study, comparison);
   add_unfitted(study, comparison);
   return comparison;

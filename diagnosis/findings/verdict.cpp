@@ -220,28 +220,77 @@ void put_objections(const Study& study, const Candidate& lead, Cause& cause) {
                          cause.parameters.end());
 }
 
-/// The hypothesis with those effects of the likeliest one that act with at least half of the probability that any of
-/// them acts (the median probability model); the likeliest itself where that was not fitted.
-const Candidate* leave_out_unlikely(const std::vector<const Candidate*>& fitted, const Candidate& likeliest) {
-  const std::vector<std::string> all = likeliest.fit.hypothesis.names();
+/// Whether the measurement left a hypothesis open beside the lead: one that predicts the same, but only with parameters
+/// that are most unusual, is told from it already.
+bool is_open_beside(const Candidate& lead, const Candidate& other) {
+  return other.posterior() >= std::exp(-thresholds::kToldApart_nats) * lead.posterior();
+}
+
+bool is_told_apart(const Study& study, const Candidate& lead, const Candidate& other) {
+  return &other != &lead && expected_log_bayes_factor(study, lead, other) >= thresholds::kToldApart_nats;
+}
+
+/// The hypothesis itself, and those with as many effects that the set leaves open beside it and cannot tell from it;
+/// the hypothesis alone where all these together would be too many effects to be named.
+std::vector<const Candidate*> find_stand_ins(const Study& study, const std::vector<const Candidate*>& fitted,
+                                             const Candidate& hypothesis) {
+  const std::size_t terms = hypothesis.fit.hypothesis.terms.size();
+  std::vector<const Candidate*> stand_ins;
+  std::map<std::string, double> beside;
+  for (const Candidate* other : fitted) {
+    if (other->fit.hypothesis.terms.size() != terms || !is_open_beside(hypothesis, *other)) continue;
+    if (is_told_apart(study, hypothesis, *other)) continue;
+    stand_ins.push_back(other);
+    for (const std::string& name : other->fit.hypothesis.names()) beside[name] += other->posterior();
+  }
+  const auto named = find_named_beside(hypothesis.fit.hypothesis.names(), hypothesis.posterior(), std::move(beside));
+  if (terms + named.size() > thresholds::kLongSet) return {&hypothesis};
+  return stand_ins;
+}
+
+/// Those effects of a hypothesis that act with at least half of the probability that any of them acts (the median
+/// probability model). What stands in for the hypothesis counts for all of its effects.
+std::vector<std::string> list_likely(const std::vector<const Candidate*>& fitted, const Candidate& hypothesis,
+                                     const std::vector<const Candidate*>& stand_ins) {
+  const std::vector<std::string> all = hypothesis.fit.hypothesis.names();
   std::map<std::string, double> acts;
   double any_acts = 0.0;
   for (const Candidate* one : fitted) {
+    const bool stands_in = std::count(stand_ins.begin(), stand_ins.end(), one) > 0;
     bool has_any = false;
-    for (const std::string& name : one->fit.hypothesis.names()) {
-      if (std::count(all.begin(), all.end(), name) == 0) continue;
+    for (const std::string& name : all) {
+      if (!stands_in && !contains_all(one->fit.hypothesis.names(), {name})) continue;
       acts[name] += one->probability;
       has_any = true;
     }
     if (has_any) any_acts += one->probability;
   }
-  std::vector<std::string> kept;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
+  std::vector<std::string> likely;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(likely),
                [&](const std::string& name) { return acts[name] >= 0.5 * any_acts; });
-  if (kept.size() == all.size()) return &likeliest;
-  const auto known = std::find_if(fitted.begin(), fitted.end(),
-                                  [&](const Candidate* one) { return one->fit.hypothesis.names() == kept; });
-  return known == fitted.end() ? &likeliest : *known;
+  return likely;
+}
+
+bool is_likely_whole(const Study& study, const std::vector<const Candidate*>& fitted, const Candidate& hypothesis) {
+  const std::vector<const Candidate*> stand_ins = find_stand_ins(study, fitted, hypothesis);
+  return list_likely(fitted, hypothesis, stand_ins).size() == hypothesis.fit.hypothesis.terms.size();
+}
+
+/// What is named of the likeliest hypothesis: those of its effects that are likely to act, and one more where it is
+/// likely that one acts beside them, even if the set cannot tell which. The likeliest itself where that was not fitted.
+const Candidate* choose_lead(const Study& study, const std::vector<const Candidate*>& fitted,
+                             const Candidate& likeliest) {
+  const std::vector<std::string> all = likeliest.fit.hypothesis.names();
+  const auto larger = std::find_if(fitted.begin(), fitted.end(), [&](const Candidate* one) {
+    const Hypothesis& hypothesis = one->fit.hypothesis;
+    return hypothesis.terms.size() == all.size() + 1 && contains_all(hypothesis.names(), all);
+  });
+  if (larger != fitted.end() && is_likely_whole(study, fitted, **larger)) return *larger;
+  if (is_likely_whole(study, fitted, likeliest)) return &likeliest;
+  const std::vector<std::string> likely = list_likely(fitted, likeliest, {});
+  const auto smaller = std::find_if(fitted.begin(), fitted.end(),
+                                    [&](const Candidate* one) { return one->fit.hypothesis.names() == likely; });
+  return smaller == fitted.end() ? &likeliest : choose_lead(study, fitted, **smaller);
 }
 
 /// Probability of what was not fitted and has all effects of one of these hypotheses.
@@ -265,12 +314,6 @@ double sum_named_whole(const std::vector<const Candidate*>& hypotheses, const Ca
     if (contains_all(named, candidate->fit.hypothesis.names())) sum += candidate->probability;
   }
   return sum;
-}
-
-/// Whether the measurement left a hypothesis open beside the lead: one that predicts the same, but only with parameters
-/// that are most unusual, is told from it already.
-bool is_open_beside(const Candidate& lead, const Candidate& other) {
-  return other.posterior() >= std::exp(-thresholds::kToldApart_nats) * lead.posterior();
 }
 
 /// Whether what was left out confirms a cause although the interval of what it shrinks holds 0, as it may where the gap
@@ -353,7 +396,7 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
   for (const Candidate* lead : left) {
     if (taken.count(lead) > 0) continue;
     if (!causes.empty() && lead->posterior() < thresholds::kWorthNaming) break;
-    if (causes.empty()) lead = leave_out_unlikely(left, *lead);
+    if (causes.empty()) lead = choose_lead(study, left, *lead);
     Cause cause;
     cause.effects = lead->fit.hypothesis.names();
     std::map<std::string, double> beside;
@@ -362,9 +405,7 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
       if (taken.count(other) > 0) continue;
       const bool is_larger = other->fit.hypothesis.terms.size() > lead->fit.hypothesis.terms.size() &&
                              contains_all(other->fit.hypothesis.names(), cause.effects);
-      const bool is_told_apart =
-          other != lead && expected_log_bayes_factor(study, *lead, *other) >= thresholds::kToldApart_nats;
-      if (is_told_apart && !is_larger) continue;
+      if (!is_larger && is_told_apart(study, *lead, *other)) continue;
       taken.insert(other);
       cause.probability += other->probability;
       if (other->fit.hypothesis.terms.size() > lead->fit.hypothesis.terms.size()) continue;  // the lead with one more

@@ -61,16 +61,31 @@ TEST_CASE("hypotheses of one effect, and of two, gain what their priors gain", "
 
 TEST_CASE("a second effect that gains much acts, one that gains little may be an error of the first one's law",
           "[fast]") {
-  CHECK(calc_law_error(200.0) < 1e-9);
-  CHECK(calc_law_error(4.0) > 0.5);
-  CHECK(calc_law_error(-3.0) == calc_law_error(0.0));
+  constexpr double kFirst_nats = 1e5;  // of which a small error would gain as much as any second effect here
+  CHECK(calc_law_error(200.0, kFirst_nats) < 1e-9);
+  CHECK(calc_law_error(4.0, kFirst_nats) > 0.5);
+  CHECK(calc_law_error(-3.0, kFirst_nats) == calc_law_error(0.0, kFirst_nats));
   double before = 1.0;
-  for (double gain_nats = 0.0; gain_nats < 100.0; gain_nats += 2.0) {
-    const double now = calc_law_error(gain_nats);
+  for (double gain_nats = 0.0; gain_nats < 60.0; gain_nats += 2.0) {
+    const double now = calc_law_error(gain_nats, kFirst_nats);
     CHECK(now > 0.0);
     CHECK(now < before);
     before = now;
   }
+}
+
+TEST_CASE("an error of a law gains little where the effect itself gains little", "[fast]") {
+  constexpr double kSecond_nats = 6.0;
+  double before = 0.0;
+  for (const double first_nats : {6.0, 30.0, 150.0, 750.0, 3750.0}) {
+    const double now = calc_law_error(kSecond_nats, first_nats);
+    CHECK(now > before);
+    before = now;
+  }
+  CHECK(calc_law_error(kSecond_nats, 30.0) < 0.2);    // an error of 45 %
+  CHECK(calc_law_error(kSecond_nats, 2400.0) > 0.5);  // of 5 %
+  CHECK(calc_law_error(kSecond_nats, -2.0) == calc_law_error(kSecond_nats, 1.0));
+  CHECK(calc_law_error(0.0, 0.0) > 0.5);
 }
 
 TEST_CASE("a pair of which both effects are clear keeps its probability", "[fast]") {
