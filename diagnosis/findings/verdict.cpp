@@ -248,49 +248,57 @@ std::vector<const Candidate*> find_stand_ins(const Study& study, const std::vect
   return stand_ins;
 }
 
+/// All hypotheses with effects of the catalog: those that were fitted, the likeliest first, and the others.
+struct NamedHypotheses {
+  std::vector<const Candidate*> fitted;
+  const std::vector<Unfitted>& unfitted;
+};
+
 /// Those effects of a hypothesis that act with at least half of the probability that any of them acts (the median
 /// probability model). What stands in for the hypothesis counts for all of its effects.
-std::vector<std::string> list_likely(const std::vector<const Candidate*>& fitted, const Candidate& hypothesis,
+std::vector<std::string> list_likely(const NamedHypotheses& all, const Candidate& hypothesis,
                                      const std::vector<const Candidate*>& stand_ins) {
-  const std::vector<std::string> all = hypothesis.fit.hypothesis.names();
+  const std::vector<std::string> names = hypothesis.fit.hypothesis.names();
   std::map<std::string, double> acts;
   double any_acts = 0.0;
-  for (const Candidate* one : fitted) {
-    const bool stands_in = std::count(stand_ins.begin(), stand_ins.end(), one) > 0;
+  const auto add = [&](const std::vector<std::string>& of, bool stands_in, double probability) {
     bool has_any = false;
-    for (const std::string& name : all) {
-      if (!stands_in && !contains_all(one->fit.hypothesis.names(), {name})) continue;
-      acts[name] += one->probability;
+    for (const std::string& name : names) {
+      if (!stands_in && !contains_all(of, {name})) continue;
+      acts[name] += probability;
       has_any = true;
     }
-    if (has_any) any_acts += one->probability;
+    if (has_any) any_acts += probability;
+  };
+  for (const Candidate* one : all.fitted) {
+    add(one->fit.hypothesis.names(), std::count(stand_ins.begin(), stand_ins.end(), one) > 0, one->probability);
   }
+  for (const Unfitted& one : all.unfitted) add(one.names, false, one.probability);
   std::vector<std::string> likely;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(likely),
+  std::copy_if(names.begin(), names.end(), std::back_inserter(likely),
                [&](const std::string& name) { return acts[name] >= 0.5 * any_acts; });
   return likely;
 }
 
-bool is_likely_whole(const Study& study, const std::vector<const Candidate*>& fitted, const Candidate& hypothesis) {
-  const std::vector<const Candidate*> stand_ins = find_stand_ins(study, fitted, hypothesis);
-  return list_likely(fitted, hypothesis, stand_ins).size() == hypothesis.fit.hypothesis.terms.size();
+bool is_likely_whole(const Study& study, const NamedHypotheses& all, const Candidate& hypothesis) {
+  const std::vector<const Candidate*> stand_ins = find_stand_ins(study, all.fitted, hypothesis);
+  return list_likely(all, hypothesis, stand_ins).size() == hypothesis.fit.hypothesis.terms.size();
 }
 
 /// What is named of the likeliest hypothesis: those of its effects that are likely to act, and one more where it is
 /// likely that one acts beside them, even if the set cannot tell which. The likeliest itself where that was not fitted.
-const Candidate* choose_lead(const Study& study, const std::vector<const Candidate*>& fitted,
-                             const Candidate& likeliest) {
-  const std::vector<std::string> all = likeliest.fit.hypothesis.names();
-  const auto larger = std::find_if(fitted.begin(), fitted.end(), [&](const Candidate* one) {
+const Candidate* choose_lead(const Study& study, const NamedHypotheses& all, const Candidate& likeliest) {
+  const std::vector<std::string> names = likeliest.fit.hypothesis.names();
+  const auto larger = std::find_if(all.fitted.begin(), all.fitted.end(), [&](const Candidate* one) {
     const Hypothesis& hypothesis = one->fit.hypothesis;
-    return hypothesis.terms.size() == all.size() + 1 && contains_all(hypothesis.names(), all);
+    return hypothesis.terms.size() == names.size() + 1 && contains_all(hypothesis.names(), names);
   });
-  if (larger != fitted.end() && is_likely_whole(study, fitted, **larger)) return *larger;
-  if (is_likely_whole(study, fitted, likeliest)) return &likeliest;
-  const std::vector<std::string> likely = list_likely(fitted, likeliest, {});
-  const auto smaller = std::find_if(fitted.begin(), fitted.end(),
+  if (larger != all.fitted.end() && is_likely_whole(study, all, **larger)) return *larger;
+  if (is_likely_whole(study, all, likeliest)) return &likeliest;
+  const std::vector<std::string> likely = list_likely(all, likeliest, {});
+  const auto smaller = std::find_if(all.fitted.begin(), all.fitted.end(),
                                     [&](const Candidate* one) { return one->fit.hypothesis.names() == likely; });
-  return smaller == fitted.end() ? &likeliest : choose_lead(study, fitted, **smaller);
+  return smaller == all.fitted.end() ? &likeliest : choose_lead(study, all, **smaller);
 }
 
 /// Probability of what was not fitted and has all effects of one of these hypotheses.
@@ -396,7 +404,7 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
   for (const Candidate* lead : left) {
     if (taken.count(lead) > 0) continue;
     if (!causes.empty() && lead->posterior() < thresholds::kWorthNaming) break;
-    if (causes.empty()) lead = choose_lead(study, left, *lead);
+    if (causes.empty()) lead = choose_lead(study, {left, comparison.unfitted}, *lead);
     Cause cause;
     cause.effects = lead->fit.hypothesis.names();
     std::map<std::string, double> beside;
