@@ -56,6 +56,7 @@ struct Candidate {
   double log_evidence = 0.0;     // with the discrepancy as small as model error
   double log_discrepancy = 0.0;  // with a free discrepancy on top
   double probability = 0.0;      // with the small discrepancy
+  double of_law_error = 0.0;     // part of it: what would be a further effect is an error of these effects' laws
   double discrepancy_probability = 0.0;
 
   double posterior() const { return probability + discrepancy_probability; }

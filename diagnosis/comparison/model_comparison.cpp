@@ -199,6 +199,7 @@ void weigh_law_errors(const Study& study, Comparison& comparison) {
       const double moved = law_error * larger.probability;
       larger.probability -= moved;
       smaller->probability += moved;
+      smaller->of_law_error += moved;
     }
   }
 }
@@ -210,6 +211,7 @@ void add_unfitted(Study& study, Comparison& comparison) {
   for (Unfitted& one : comparison.unfitted) one.probability /= all;
   for (Candidate& one : comparison.candidates) {
     one.probability /= all;
+    one.of_law_error /= all;
     one.discrepancy_probability /= all;
   }
   study.null.probability /= all;

@@ -31,24 +31,34 @@ std::map<std::string, double> find_bayes_factors(const std::vector<Screened>& sc
   return factors;
 }
 
-/// Probability of a hypothesis with both signs of its terms.
-double find_fitted_probability(const Comparison& comparison, const std::vector<std::string>& names) {
-  double sum = 0.0;
+/// Probability of what one more effect is added to.
+struct Below {
+  double probability = 0.0;
+  double of_law_error = 0.0;  // part of it: an error of the laws made what a further effect would gain
+};
+
+/// Of a hypothesis with both signs of its terms.
+Below find_fitted(const Comparison& comparison, const std::vector<std::string>& names) {
+  Below sum;
   for (const Candidate& candidate : comparison.candidates) {
-    if (candidate.fit.hypothesis.names() == names) sum += candidate.probability;
+    if (candidate.fit.hypothesis.names() != names) continue;
+    sum.probability += candidate.probability;
+    sum.of_law_error += candidate.of_law_error;
   }
   return sum;
 }
 
-/// Adds those with one effect more than a fitted hypothesis, unless they are `known`.
-void add_on_top_of(const std::vector<std::string>& fitted, double probability, double odds,
+/// Adds those with one effect more than a fitted hypothesis, unless they are `known`. Where an error of the laws made
+/// the gain, the further effect has no more than its prior odds.
+void add_on_top_of(const std::vector<std::string>& fitted, const Below& below, double odds,
                    const std::vector<Screened>& screened, std::set<std::set<std::string>>& known,
                    std::vector<Unfitted>& all) {
   for (const auto& [name, factor] : find_bayes_factors(screened)) {
     std::vector<std::string> names = fitted;
     names.push_back(name);
     if (!known.insert({names.begin(), names.end()}).second) continue;
-    all.push_back({std::move(names), probability * odds * factor});
+    const double exact = below.probability - below.of_law_error;
+    all.push_back({std::move(names), odds * (exact * factor + below.of_law_error * std::min(1.0, factor))});
   }
 }
 
@@ -77,14 +87,14 @@ std::vector<Unfitted> list_unfitted(const Study& study, const Comparison& compar
     known.insert({names.begin(), names.end()});
   }
   std::vector<Unfitted> all;
-  add_on_top_of({}, study.null.probability, find_prior(study.settings, 1) / study.settings.priors.none,
+  add_on_top_of({}, {study.null.probability}, find_prior(study.settings, 1) / study.settings.priors.none,
                 comparison.screened, known, all);
   for (const ScreenedOnTop& on_top : comparison.on_top) {
     const std::size_t terms = on_top.hypothesis.terms.size();
     if (terms >= kMostTerms) continue;
     const std::vector<std::string> names = on_top.hypothesis.names();
     const double odds = find_prior(study.settings, terms + 1) / find_prior(study.settings, terms);
-    add_on_top_of(names, find_fitted_probability(comparison, names), odds, on_top.screened, known, all);
+    add_on_top_of(names, find_fitted(comparison, names), odds, on_top.screened, known, all);
   }
   return all;
 }

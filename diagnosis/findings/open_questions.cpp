@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "diagnosis/comparison/evidence.h"
-#include "diagnosis/findings/verdict.h"
+#include "diagnosis/findings/lead.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -112,8 +112,7 @@ std::vector<OpenHypothesis> find_open_hypotheses(const Study& study, const Compa
   add(describe_hypothesis(study, lead), most);
   std::vector<const Candidate*> runners_up;
   for (std::size_t i = 1; i < ranked.size(); ++i) {
-    const bool told_apart = expected_log_bayes_factor(study, lead, *ranked[i]) >= thresholds::kToldApart_nats;
-    if (is_baseline || told_apart || adds_a_term(lead, *ranked[i])) {
+    if (is_baseline || is_told_apart(study, lead, *ranked[i]) || adds_a_term(lead, *ranked[i])) {
       if (ranked[i]->posterior() >= kRunnerUp) runners_up.push_back(ranked[i]);
     } else if (open.size() < kMost) {
       add(describe_hypothesis(study, *ranked[i]), most);

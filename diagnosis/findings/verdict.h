@@ -13,23 +13,12 @@ namespace rollrig::diagnosis {
 /// Inclusion probability of every effect in the comparison, of "none" and of "unknown".
 std::map<std::string, double> find_probabilities(const Study& study, const Comparison& comparison);
 
-/// What a set like this one would say on average for `a` against `b`, were `a` true.
-/// Equation  |Sigma^-1/2 (r_a - r_b)|^2 / 2, r the whitened residuals of the two fits
-double expected_log_bayes_factor(const Study& study, const Candidate& a, const Candidate& b);
-
-/// What is named beside the lead's own effects, in the order of the names: all of `beside` (with what is left of their
-/// probability), or where that makes more than three in all, without the unlikeliest, as long as all that are left out
-/// hold a tenth of the set at most.
-std::vector<std::string> find_named_beside(const std::vector<std::string>& lead, double lead_weight,
-                                           std::map<std::string, double> beside);
-
 /// Causes from the most probable down; but that of the likeliest hypothesis comes first where the most probable one is
-/// a part of it. The cause of the likeliest hypothesis has those effects of the likeliest hypothesis that act with at
-/// least half of the probability that any of them acts. Hypotheses whose expected log Bayes factor on this set is below
-/// 3 are one cause, named after the likeliest of them; those that the set has told from it already, posterior below
-/// e^-3 of the lead's (the same prediction, but with parameters that are most unusual), are not listed beside it. Of a
-/// set of more than three the unlikeliest are left out, as long as all of them together hold a tenth of it at most. The
-/// first cause is held adequate unless
+/// a part of it. The cause of the likeliest hypothesis is that of choose_lead(). Hypotheses whose expected log Bayes
+/// factor on this set is below 3 are one cause, named after the likeliest of them; those that the set has told from it
+/// already, posterior below e^-3 of the lead's (the same prediction, but with parameters that are most unusual), are
+/// not listed beside it. Of a set of more than three the unlikeliest are left out, as long as all of them together hold
+/// a tenth of it at most. The first cause is held adequate unless
 /// - a free discrepancy on top of it is likelier than it alone,
 /// - its size, estimated from each run by itself, scatters by more than noise and 30 % of the size explain (chance
 ///   below 0.001); only runs that determine the size to within 30 % count,

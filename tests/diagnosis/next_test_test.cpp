@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "diagnosis/findings/verdict.h"
+#include "diagnosis/findings/lead.h"
 #include "diagnosis/next_test/predicted_test.h"
 #include "diagnosis/thresholds.h"
 #include "tests/diagnosis/compared_set.h"

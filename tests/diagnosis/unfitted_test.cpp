@@ -1,6 +1,7 @@
 // Hypotheses that were screened and not fitted.
 #include "diagnosis/comparison/unfitted.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -102,4 +103,29 @@ TEST_CASE("what was not fitted is not among the fitted, nor there twice, nor lik
     if (one.names.size() == 1) largest = compared.study.null.probability;
     CHECK(one.probability <= 21.0 * settings.priors.singles / settings.priors.none * largest);
   }
+}
+
+TEST_CASE("what an error of a law gained counts for no further effect", "[fast]") {
+  tests::ComparedSet compared(
+      tests::measure_on_drum({tests::act("bearing_warmup"), tests::act("slow_leak", 2.0)}, {tests::plan_skim_run()}),
+      {"bearing_warmup", "torque_zero_drift", "slow_leak", "load_cross_talk"});
+  Comparison& comparison = compared.comparison;
+  comparison.candidates.erase(std::remove_if(comparison.candidates.begin(), comparison.candidates.end(),
+                                             [](const Candidate& one) { return one.fit.hypothesis.terms.size() > 1; }),
+                              comparison.candidates.end());  // so that all pairs are unfitted
+  for (Candidate& one : comparison.candidates) one.of_law_error = 0.0;
+  const std::vector<Unfitted> exact = list_unfitted(compared.study, comparison);
+  for (Candidate& one : comparison.candidates) one.of_law_error = one.probability;
+  const std::vector<Unfitted> wrong = list_unfitted(compared.study, comparison);
+  REQUIRE(exact.size() == wrong.size());
+  const StudySettings& settings = compared.study.settings;
+  const double odds = find_prior(settings, 2) / find_prior(settings, 1);
+  std::size_t fewer = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    REQUIRE(exact[i].names == wrong[i].names);
+    CHECK(wrong[i].probability <= exact[i].probability);
+    if (wrong[i].names.size() == 2) CHECK(wrong[i].probability <= odds);
+    if (wrong[i].probability < exact[i].probability) ++fewer;
+  }
+  CHECK(fewer > 0);
 }

@@ -1,0 +1,43 @@
+#pragma once
+/// Which hypothesis the first cause is named after.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/comparison/model_comparison.h"
+
+namespace rollrig::diagnosis {
+
+/// What a set like this one would say on average for `a` against `b`, were `a` true.
+/// Equation  |Sigma^-1/2 (r_a - r_b)|^2 / 2, r the whitened residuals of the two fits
+double expected_log_bayes_factor(const Study& study, const Candidate& a, const Candidate& b);
+
+/// What is named beside the lead's own effects, in the order of the names: all of `beside` (with what is left of their
+/// probability), or where that makes more than three in all, without the unlikeliest, as long as all that are left out
+/// hold a tenth of the set at most.
+std::vector<std::string> find_named_beside(const std::vector<std::string>& lead, double lead_weight,
+                                           std::map<std::string, double> beside);
+
+/// Whether the measurement left a hypothesis open beside the lead: one that predicts the same, but only with parameters
+/// that are most unusual, is told from it already.
+bool is_open_beside(const Candidate& lead, const Candidate& other);
+
+/// Whether the set tells two hypotheses apart: expected log Bayes factor of 3 or more.
+bool is_told_apart(const Study& study, const Candidate& lead, const Candidate& other);
+
+/// All hypotheses with effects of the catalog: those that were fitted, the likeliest first, and the others.
+struct NamedHypotheses {
+  std::vector<const Candidate*> fitted;
+  const std::vector<Unfitted>& unfitted;
+};
+
+/// The hypothesis that is named where this is the likeliest: with those of its effects that act with at least half of
+/// the probability that any of them acts (the median probability model), and with one effect more where it is likelier
+/// than not that one acts beside them. It may be open which one: hypotheses that the set cannot tell from the named one
+/// count for it, unless all their effects together are too many to be named. The likeliest itself where what would be
+/// named was not fitted.
+/// Checked  tests/diagnosis/lead_test.cpp
+const Candidate* choose_lead(const Study& study, const NamedHypotheses& all, const Candidate& likeliest);
+
+}  // namespace rollrig::diagnosis
