@@ -118,7 +118,8 @@ std::string cause_line(const Findings& findings) {
 }
 
 std::string describe_alternatives(const Cause& cause) {
-  const std::string why = " (this set cannot tell)";
+  const std::string why =
+      cause.effects.size() > 1 ? " in place of one of them (this set cannot tell)" : " (this set cannot tell)";
   return join_to_fit(cause.indistinguishable_from, ", ", text_width() - why.size()) + why;
 }
 
