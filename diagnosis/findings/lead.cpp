@@ -54,6 +54,15 @@ std::vector<std::string> list_likely(const NamedHypotheses& all, const Candidate
   return likely;
 }
 
+/// The first of so many terms that has all these effects.
+std::vector<const Candidate*>::const_iterator find_with(const std::vector<const Candidate*>& fitted,
+                                                        const std::vector<std::string>& effects, std::size_t terms) {
+  return std::find_if(fitted.begin(), fitted.end(), [&](const Candidate* one) {
+    const Hypothesis& hypothesis = one->fit.hypothesis;
+    return hypothesis.terms.size() == terms && contains_all(hypothesis.names(), effects);
+  });
+}
+
 bool is_likely_whole(const Study& study, const NamedHypotheses& all, const Candidate& hypothesis) {
   const std::vector<const Candidate*> stand_ins = find_stand_ins(study, all.fitted, hypothesis);
   return list_likely(all, hypothesis, stand_ins).size() == hypothesis.fit.hypothesis.terms.size();
@@ -95,15 +104,11 @@ bool is_told_apart(const Study& study, const Candidate& lead, const Candidate& o
 
 const Candidate* choose_lead(const Study& study, const NamedHypotheses& all, const Candidate& likeliest) {
   const std::vector<std::string> names = likeliest.fit.hypothesis.names();
-  const auto larger = std::find_if(all.fitted.begin(), all.fitted.end(), [&](const Candidate* one) {
-    const Hypothesis& hypothesis = one->fit.hypothesis;
-    return hypothesis.terms.size() == names.size() + 1 && contains_all(hypothesis.names(), names);
-  });
+  const auto larger = find_with(all.fitted, names, names.size() + 1);
   if (larger != all.fitted.end() && is_likely_whole(study, all, **larger)) return *larger;
   if (is_likely_whole(study, all, likeliest)) return &likeliest;
   const std::vector<std::string> likely = list_likely(all, likeliest, {});
-  const auto smaller = std::find_if(all.fitted.begin(), all.fitted.end(),
-                                    [&](const Candidate* one) { return one->fit.hypothesis.names() == likely; });
+  const auto smaller = find_with(all.fitted, likely, likely.size());
   return smaller == all.fitted.end() ? &likeliest : choose_lead(study, all, **smaller);
 }
 

@@ -13,6 +13,7 @@ namespace {
 constexpr double kLong_s = 900.0;  // Assumed: above it a warm-up shows within a phase
 constexpr double kBegin_s = 600.0;
 constexpr double kFamilyWise = 0.01;
+constexpr double kLeftOver = 1.1;  // Assumed: chi2/N from which stretches of constant size do not describe the gap
 
 struct PhaseOfSeries {
   const Series* series = nullptr;
@@ -199,6 +200,7 @@ Eigen::Index find_clearest(const Scores& scores, const std::vector<std::size_t>&
 struct Located {
   std::vector<Sized> sized;
   Eigen::VectorXd unknowns;  // of the null, beside them
+  double variance = 1.0;     // calc_variance()
 };
 
 /// Puts stretches in one by one; then those that the others have made insignificant are taken out again, the faintest
@@ -217,7 +219,8 @@ Located select_stretches(const Products& products, double critical) {
     const std::vector<Sized> sized = size_jointly(scores, selected);
     const auto faintest = std::min_element(
         sized.begin(), sized.end(), [](const Sized& a, const Sized& b) { return std::abs(a.z) < std::abs(b.z); });
-    if (faintest == sized.end() || std::abs(faintest->z) > critical) return {sized, find_unknowns(scores, sized)};
+    if (faintest == sized.end() || std::abs(faintest->z) > critical)
+      return {sized, find_unknowns(scores, sized), variance};
     selected.erase(selected.begin() + (faintest - sized.begin()));
     variance = settle_variance(products, selected, variance);
   }
@@ -241,6 +244,18 @@ Eigen::VectorXd calc_difference(const Study& study, const Eigen::VectorXd& unkno
   Eigen::VectorXd moved = fit.jacobian * (unknowns - fit.unknowns);
   for (const Series& series : study.set.series()) series.whitener.undo(moved.data() + series.first_residual, 1);
   return moved + study.make_model(fit.hypothesis).subtract_from_measured(fit.unknowns, fit.simulated);
+}
+
+/// What a user sees of a stretch: its mean difference from the recalibrated baseline, if its size beside the others is
+/// more than `kSeen` times as much. Base parameters that fit other stretches then make most of that size. Without a
+/// size that is significant, where nothing is to be seen.
+Sized limit_to_seen(const PhaseOfSeries& stretch, const Eigen::VectorXd& difference, const Sized& sized) {
+  constexpr double kSeen = 2.0;  // Assumed
+  double mean = 0.0;
+  for (const std::size_t k : stretch.blocks) mean += difference[to_index(stretch.series->first_residual + k)];
+  mean /= static_cast<double>(stretch.blocks.size());
+  const double share = std::max(0.0, mean / sized.size);
+  return kSeen * share >= 1.0 ? sized : Sized{sized.stretch, sized.size * share, sized.z * share};
 }
 
 LocationStretch describe_stretch(const PreparedSet& set, const PhaseOfSeries& stretch) {
@@ -279,7 +294,14 @@ std::vector<Location> find_locations(const Study& study) {
   const double critical = boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
   const LinearFit linear(study.discrepancy, study.null);
   const Located located = select_stretches(calc_products(linear, stretches), critical);
-  const std::vector<Sized>& listed = located.sized;
+  std::vector<Sized> listed = located.sized;
+  if (located.variance > kLeftOver) {
+    const Eigen::VectorXd recalibrated = calc_difference(study, study.null.fit.unknowns);
+    for (Sized& sized : listed) sized = limit_to_seen(stretches[sized.stretch], recalibrated, sized);
+    listed.erase(std::remove_if(listed.begin(), listed.end(),
+                                [critical](const Sized& sized) { return std::abs(sized.z) <= critical; }),
+                 listed.end());
+  }
   if (listed.empty()) return {};
   const Eigen::VectorXd difference = calc_difference(study, located.unknowns);
   std::vector<Location> locations;

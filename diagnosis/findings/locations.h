@@ -35,10 +35,14 @@ std::vector<LocationStretch> list_location_stretches(const PreparedSet& set);
 ///           and the priors of base parameters and offsets, noise and discrepancy times max(1, chi^2/N);
 ///           z = size over its standard deviation. Listed where |z| > q(1 - 0.01/(2 n)), q the normal quantile
 ///           (family-wise 1 %); share = max(0, sum (d/f)^2 - (s/f)^2) in the stretch over that of all listed, and what
-///           the others have together
+///           the others have together.
+///           If chi^2/N > 1.1 (Assumed), constants in stretches do not describe the gap, and base parameters that fit
+///           some stretches enlarge the sizes of others: a size above 2 |m| (Assumed), or of the other sign, becomes m
+///           or 0, z in proportion
 /// Symbols   chi^2/N mean square of the whitened residuals beside the stretches; n stretches tested; d measured -
 ///           simulated - offset of a block, with base parameters and offsets as they fit best beside the stretches;
-///           s what noise would give it; f the series' noise floor; size in N at the drum's surface, degC or kPa
+///           s what noise would give it; f the series' noise floor; m mean difference of the stretch from the
+///           recalibrated baseline; size in N at the drum's surface, degC or kPa
 /// Validity  gaps that hold their sign for a good part of a stretch; the null's own unknowns to first order. What base
 ///           parameters and offsets can take within their uncertainty does not count as a gap
 /// Source    Bonferroni's inequality; forward selection; chi^2/N: R. T. Birge, Phys. Rev. 40 (1932) 207

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 
+#include "diagnosis/comparison/report_unit.h"
 #include "diagnosis/findings/balance.h"
 #include "models/effect.h"
 #include "sim/core/parallel.h"
@@ -102,6 +104,51 @@ TEST_CASE("bearings that warm are located in the torque of the first skims", "[f
     if (location.channel == kTorque) torque_percent += location.share_percent;
   }
   CHECK(torque_percent > 80.0);
+}
+
+namespace {
+
+/// Mean difference of a location's stretch from the recalibrated baseline, in its unit.
+double find_mean_difference(const diagnosis::Study& study, const Location& location) {
+  const Eigen::VectorXd difference =
+      study.make_model({}).subtract_from_measured(study.null.fit.unknowns, study.null.fit.simulated);
+  double sum = 0.0;
+  int count = 0;
+  for (const diagnosis::Series& series : study.set.series()) {
+    if (study.set.channels()[series.channel].header() != location.channel) continue;
+    if (study.set.runs()[series.run].measured.id != location.run) continue;
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      if (series.time_s[k] < location.start_s || series.time_s[k] >= location.end_s) continue;
+      sum += difference[diagnosis::to_index(series.first_residual + k)];
+      ++count;
+    }
+  }
+  const Quantity& channel = *std::find_if(study.set.channels().begin(), study.set.channels().end(),
+                                          [&](const Quantity& one) { return one.header() == location.channel; });
+  return sum / count * diagnosis::find_report_unit(study.set, channel).per_SI;
+}
+
+}  // namespace
+
+TEST_CASE("the sizes of a gap that is everywhere are not far beyond what is seen", "[fast]") {
+  int limited = 0;
+  const std::map<std::string, double> sizes{{"rim_heat", 30.0}, {"load_exponent", 0.3}, {"pressure_exponent", 0.5}};
+  for (const auto& [effect, size] : sizes) {
+    const models::Effect& found = models::find_effect(effect);
+    std::vector<double> own;
+    for (const auto& parameter : found.info.parameters) own.push_back(parameter.prior.center());
+    own.front() = size;
+    const tests::FittedBaseline fitted(tests::add_noise(tests::make_gap_set({tests::make_active(found, own)}, 3), 1));
+    for (const Location& location : diagnosis::find_locations(fitted)) {
+      const double mean = find_mean_difference(fitted, location);
+      INFO(effect << " " << location.channel << " " << location.run << " " << location.phase << " " << location.size
+                  << " " << mean << " z " << location.z);
+      CHECK(location.size * mean > 0.0);
+      CHECK(std::abs(location.size) < 2.1 * std::abs(mean));
+      if (location.size == Approx(mean)) ++limited;
+    }
+  }
+  CHECK(limited > 0);
 }
 
 TEST_CASE("what a sensor's offset takes has no location", "[fast]") {
