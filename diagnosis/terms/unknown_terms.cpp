@@ -1,5 +1,5 @@
-/// Families of unknown effects as terms of hypotheses: a force, a load, heat or a reading that is off by a simple
-/// function of speed, load or temperature.
+/// Families of unknown effects as terms of hypotheses: a force, a load, heat, gas or a reading that is off by a simple
+/// function of speed, load, temperature or pressure.
 #include "diagnosis/terms/unknown_terms.h"
 
 #include <algorithm>
@@ -182,6 +182,56 @@ struct HeatByPower {
   }
 };
 
+struct GasByPressure {
+  enum Parameter { kRate, kPower };
+  enum State { kLost };
+
+  static EffectInfo info() {
+    EffectInfo info;
+    info.id = "unknown gas that leaves above the cold pressure";
+    info.summary = "Gas leaves the tire, or enters it, while its pressure is above that at filling";
+    info.equation =
+        "m/m_0 <- (m/m_0)(1 - s), ds/dt = r ((p - p_cold)/10 kPa)^n/(p_cold + p_amb) above p_cold, 0 below; set back "
+        "by filling";
+    info.source = "Assumed: all numbers; n: 1 of a narrow gap, large of a valve that opens at a pressure";
+    info.parameters = {{"rate_kPa_per_h",
+                        between(-100.0, 100.0),
+                        {0.2, 2.0, Prior::Scale::kLog, true},
+                        "r, fall of the pressure at 10 kPa above the cold one",
+                        0.0},
+                       {"power", between(0.3, 6.0), {0.8, 2.5}, "n"}};
+    info.states = {{"gas_lost", 0.01, "s, share of the gas that was filled in"}};
+    info.visible_in = {quantities::kCavityPressure};
+    return info;
+  }
+
+  static std::string describe(const std::vector<double>& at) {
+    constexpr double kPa_per_h = 1e3 / 3600.0;
+    return fmt::format("gas that {} at {:.2g} kPa/h at 10 kPa above the cold pressure, a rate that {} above it",
+                       at[kRate] > 0.0 ? "leaves" : "enters", std::abs(at[kRate]) / kPa_per_h,
+                       show_growth("pressure", at[kPower]));
+  }
+
+  template <class S>
+  static void gas(const EffectView<S>& self, const Instant<S>&, GasPort<S>& port) {
+    port.mass_ratio *= S(1.0) - self.state(kLost);
+  }
+
+  template <class S>
+  static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
+    using std::pow;
+    const S above = (now.pressure_Pa - now.inflation.cold_pressure_Pa) / quantity<S>(10e3, dimension::kPressure);
+    const S filled_abs_Pa = now.inflation.cold_pressure_Pa + now.inflation.ambient_pressure_Pa;
+    const S growth = value_of(above) > 0.0 ? S(pow(above, self.parameter(kPower))) : zero<S>();
+    rates[kLost] = self.parameter(kRate) * growth / filled_abs_Pa;
+  }
+
+  template <class S>
+  static void inflated(const EffectView<S>&, S* states) {
+    states[kLost] = S(0.0);
+  }
+};
+
 struct BentTemperature {
   enum Parameter { kError, kPower };
 
@@ -246,9 +296,9 @@ UnknownTerm make_unknown_term() {
 
 std::vector<const Term*> list_unknown_terms() {
   static const std::vector<UnknownTerm> families{
-      make_unknown_term<models::ForceInBand>(), make_unknown_term<models::ForceByPowers>(),
+      make_unknown_term<models::ForceInBand>(),   make_unknown_term<models::ForceByPowers>(),
       make_unknown_term<models::LoadWithSpeed>(), make_unknown_term<models::HeatByPower>(),
-      make_unknown_term<models::BentTemperature>()};
+      make_unknown_term<models::GasByPressure>(), make_unknown_term<models::BentTemperature>()};
   std::vector<const Term*> terms;
   for (const UnknownTerm& family : families) terms.push_back(&family);
   return terms;

@@ -67,6 +67,24 @@ TEST_CASE("a family of unknown effects cannot be asked for by name", "[fast]") {
   }
 }
 
+TEST_CASE("gas that leaves only above a pressure is unknown, and no slow leak", "[fast]") {
+  constexpr double kPa_per_h = 1e3 / 3600.0;
+  const Term& family = find_family("gas");
+  models::ActiveEffect acting{&family.effect(), {6.0 * kPa_per_h, 5.0}};
+  const auto set = tests::measure_on_drum({acting}, {plan_long_steps()});
+  const Compared compared(set, {"slow_leak", "cavity_volume", "pressure_record"});
+  CHECK(compared.comparison.unknown_probability > 0.9);
+  const auto like = find_likeness(compared.study, compared.comparison, compared.comparison.unknown_probability);
+  REQUIRE(like.has_value());
+  CHECK_THAT(like->text, Catch::Contains("gas that leaves at"));
+}
+
+TEST_CASE("a leak at a steady rate is a slow leak", "[fast]") {
+  const auto set = tests::measure_on_drum({tests::act("slow_leak", 4.0)}, {plan_long_steps()});
+  const Compared compared(set, {"slow_leak", "cavity_volume", "pressure_record"});
+  CHECK(compared.comparison.unknown_probability < 0.3);
+}
+
 TEST_CASE("a force in a band of speeds is unknown, and the band is told", "[fast]") {
   const Term& band = find_family("band");
   models::ActiveEffect acting{&band.effect(), {3.0, 80.0 / 3.6, 8.0 / 3.6, 0.5}};
