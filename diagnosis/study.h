@@ -56,7 +56,8 @@ struct Candidate {
   double log_evidence = 0.0;     // with the discrepancy as small as model error
   double log_discrepancy = 0.0;  // with a free discrepancy on top
   double probability = 0.0;      // with the small discrepancy
-  double of_law_error = 0.0;     // part of it: what would be a further effect is an error of these effects' laws
+  double of_law_error = 0.0;     // part of it that came from hypotheses with one effect more, whose further effect may
+                                 // be an error of these effects' laws
   double discrepancy_probability = 0.0;
 
   double posterior() const { return probability + discrepancy_probability; }

@@ -165,7 +165,7 @@ std::string describe_verdict(const Findings& findings) {
   std::string text = fmt::format("Explained: the gap is {}", fmt::join(cause.effects, " with "));
   const std::string alternatives = join(cause.indistinguishable_from);
   if (!alternatives.empty() && cause.effects.size() == 1) text += " or, as well, " + alternatives;
-  if (!alternatives.empty() && cause.effects.size() > 1) text += ", or in place of one of them " + alternatives;
+  if (!alternatives.empty() && cause.effects.size() > 1) text += ", or in place of one or more of them " + alternatives;
   return fmt::format("{} (probability {}).", text, show_probability(cause.probability));
 }
 
@@ -315,11 +315,12 @@ Section make_next(const Findings& findings) {
   Section section{"What cannot be told apart, and the test that would"};
   if (!findings.causes.empty() && !findings.causes.front().indistinguishable_from.empty()) {
     const Cause& cause = findings.causes.front();
-    const char* format = cause.effects.size() == 1
-                             ? "This set cannot tell {} from {}."
-                             : "Of {}, one may not act, and in its place {}: this set cannot tell.";
-    section.blocks.push_back(
-        make_paragraph(fmt::format(fmt::runtime(format), join(cause.effects), join(cause.indistinguishable_from))));
+    const std::string others = join(cause.indistinguishable_from);
+    section.blocks.push_back(make_paragraph(
+        cause.effects.size() == 1 ? fmt::format("This set cannot tell {} from {}.", cause.effects.front(), others)
+                                  : fmt::format("This set cannot tell whether {} act together, or {} in place of one "
+                                                "or more of them.",
+                                                fmt::join(cause.effects, " and "), others)));
   }
   section.blocks.push_back(
       make_paragraph(findings.not_excluded.empty()

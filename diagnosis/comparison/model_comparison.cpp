@@ -198,6 +198,7 @@ void weigh_law_errors(const Study& study, Comparison& comparison) {
           calc_law_error(larger.log_evidence - smaller->log_evidence, smaller->log_evidence - study.null.log_evidence);
       const double moved = law_error * larger.probability;
       larger.probability -= moved;
+      larger.of_law_error *= 1.0 - law_error;
       smaller->probability += moved;
       smaller->of_law_error += moved;
     }

@@ -34,7 +34,7 @@ std::map<std::string, double> find_bayes_factors(const std::vector<Screened>& sc
 /// Probability of what one more effect is added to.
 struct Below {
   double probability = 0.0;
-  double of_law_error = 0.0;  // part of it: an error of the laws made what a further effect would gain
+  double of_law_error = 0.0;  // part of it (Candidate::of_law_error)
 };
 
 /// Of a hypothesis with both signs of its terms.

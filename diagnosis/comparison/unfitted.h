@@ -28,8 +28,10 @@ double calc_bayes_factor(const Screened& screened);
 
 /// Hypotheses with one effect more than the baseline, or than a hypothesis on top of which effects were screened, that
 /// were not fitted themselves.
-/// Equation  P(with b) = P(fitted) pi_(k+1)/pi_k min(B_b, e^3); pi_k prior of each hypothesis of k effects
-/// Symbols   P(fitted) probability of the hypothesis on top of which b was screened; e^3: a term that gains more was
+/// Equation  P(with b) = pi_(k+1)/pi_k ((P - L) min(B_b, e^3) + L min(B_b, 1)); pi_k prior of each hypothesis of k
+///           effects
+/// Symbols   P probability of the hypothesis on top of which b was screened; L part of it that came from hypotheses
+///           with one effect more, as errors of the law (Candidate::of_law_error); e^3: a term that gains more was
 ///           fitted, or others that gain more than it were (thresholds.h, kWorthAdding_nats)
 std::vector<Unfitted> list_unfitted(const Study& study, const Comparison& comparison);
 

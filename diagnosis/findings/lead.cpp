@@ -50,7 +50,7 @@ std::vector<std::string> list_likely(const NamedHypotheses& all, const Candidate
   for (const Unfitted& one : all.unfitted) add(one.names, false, one.probability);
   std::vector<std::string> likely;
   std::copy_if(names.begin(), names.end(), std::back_inserter(likely),
-               [&](const std::string& name) { return acts[name] >= 0.5 * any_acts; });
+               [&](const std::string& name) { return acts[name] > 0.0 && acts[name] >= 0.5 * any_acts; });
   return likely;
 }
 

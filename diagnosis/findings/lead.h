@@ -1,5 +1,5 @@
 #pragma once
-/// Which hypothesis the first cause is named after.
+/// The lead: the hypothesis after which the first cause is named.
 
 #include <map>
 #include <string>
@@ -15,7 +15,7 @@ double expected_log_bayes_factor(const Study& study, const Candidate& a, const C
 
 /// What is named beside the lead's own effects, in the order of the names: all of `beside` (with what is left of their
 /// probability), or where that makes more than three in all, without the unlikeliest, as long as all that are left out
-/// hold a tenth of the set at most.
+/// have together at most a tenth of the probability of the lead and all of `beside`.
 std::vector<std::string> find_named_beside(const std::vector<std::string>& lead, double lead_weight,
                                            std::map<std::string, double> beside);
 

@@ -246,9 +246,8 @@ Eigen::VectorXd calc_difference(const Study& study, const Eigen::VectorXd& unkno
   return moved + study.make_model(fit.hypothesis).subtract_from_measured(fit.unknowns, fit.simulated);
 }
 
-/// What a user sees of a stretch: its mean difference from the recalibrated baseline, if its size beside the others is
-/// more than `kSeen` times as much. Base parameters that fit other stretches then make most of that size. Without a
-/// size that is significant, where nothing is to be seen.
+/// The size of a stretch, if it is at most `kSeen` times its mean difference from the recalibrated baseline; else that
+/// mean, z in proportion, or 0 where the mean has the other sign.
 Sized limit_to_seen(const PhaseOfSeries& stretch, const Eigen::VectorXd& difference, const Sized& sized) {
   constexpr double kSeen = 2.0;  // Assumed
   double mean = 0.0;

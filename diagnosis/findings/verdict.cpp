@@ -297,10 +297,11 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
   std::vector<Cause> causes;
   std::vector<const Candidate*> leads;
   std::set<const Candidate*> taken;
-  for (const Candidate* lead : left) {
+  std::vector<const Candidate*> in_order = left;
+  if (!left.empty()) in_order.insert(in_order.begin(), choose_lead(study, {left, comparison.unfitted}, *left.front()));
+  for (const Candidate* lead : in_order) {
     if (taken.count(lead) > 0) continue;
     if (!causes.empty() && lead->posterior() < thresholds::kWorthNaming) break;
-    if (causes.empty()) lead = choose_lead(study, {left, comparison.unfitted}, *lead);
     Cause cause;
     cause.effects = lead->fit.hypothesis.names();
     std::map<std::string, double> beside;

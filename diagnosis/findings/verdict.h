@@ -13,12 +13,12 @@ namespace rollrig::diagnosis {
 /// Inclusion probability of every effect in the comparison, of "none" and of "unknown".
 std::map<std::string, double> find_probabilities(const Study& study, const Comparison& comparison);
 
-/// Causes from the most probable down; but that of the likeliest hypothesis comes first where the most probable one is
-/// a part of it. The cause of the likeliest hypothesis is that of choose_lead(). Hypotheses whose expected log Bayes
-/// factor on this set is below 3 are one cause, named after the likeliest of them; those that the set has told from it
-/// already, posterior below e^-3 of the lead's (the same prediction, but with parameters that are most unusual), are
-/// not listed beside it. Of a set of more than three the unlikeliest are left out, as long as all of them together hold
-/// a tenth of it at most. The first cause is held adequate unless
+/// Causes from the most probable down; but that of the lead (choose_lead()) comes first where the most probable one is
+/// a part of it. A cause is named after the lead, a further one after the likeliest hypothesis that is left. Hypotheses
+/// whose expected log Bayes factor against that is below 3 on this set belong to the same cause; those that the set has
+/// told from it already, posterior below e^-3 of that one's (the same prediction, but with parameters that are most
+/// unusual), are not listed beside it. Of a set of more than three the unlikeliest are left out, as long as all of them
+/// together hold a tenth of it at most. The first cause is held adequate unless
 /// - a free discrepancy on top of it is likelier than it alone,
 /// - its size, estimated from each run by itself, scatters by more than noise and 30 % of the size explain (chance
 ///   below 0.001); only runs that determine the size to within 30 % count,

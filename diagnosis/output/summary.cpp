@@ -102,7 +102,8 @@ std::string trace_line(const Cause& trace) {
   for (const std::string& effect : trace.effects) effects.push_back(describe_effect(effect, trace));
   std::string text = fmt::format("a trace of {}", fmt::join(effects, " with "));
   if (!trace.indistinguishable_from.empty()) {
-    text += fmt::format(", or as well {}", fmt::join(trace.indistinguishable_from, ", "));
+    text += fmt::format(", or {} {}", trace.effects.size() > 1 ? "in place of one or more of them" : "as well",
+                        fmt::join(trace.indistinguishable_from, ", "));
   }
   text += ", too small to matter";
   if (trace.change.has_value()) text += fmt::format(" ({})", describe_change(*trace.change));
@@ -119,7 +120,7 @@ std::string cause_line(const Findings& findings) {
 
 std::string describe_alternatives(const Cause& cause) {
   const std::string why =
-      cause.effects.size() > 1 ? " in place of one of them (this set cannot tell)" : " (this set cannot tell)";
+      cause.effects.size() > 1 ? " in place of one or more of them (this set cannot tell)" : " (this set cannot tell)";
   return join_to_fit(cause.indistinguishable_from, ", ", text_width() - why.size()) + why;
 }
 

@@ -189,15 +189,15 @@ struct GasByPressure {
   static EffectInfo info() {
     EffectInfo info;
     info.id = "unknown gas that leaves above the cold pressure";
-    info.summary = "Gas leaves the tire, or enters it, while its pressure is above that at filling";
+    info.summary = "Gas leaves the tire while its pressure is above that at filling";
     info.equation =
         "m/m_0 <- (m/m_0)(1 - s), ds/dt = r ((p - p_cold)/10 kPa)^n/(p_cold + p_amb) above p_cold, 0 below; set back "
         "by filling";
-    info.source = "Assumed: all numbers; n: 1 of a narrow gap, large of a valve that opens at a pressure";
+    info.source = "Assumed: all numbers; n: 1 for a narrow gap, large for a valve that opens at a pressure";
     info.parameters = {{"rate_kPa_per_h",
-                        between(-100.0, 100.0),
-                        {0.2, 2.0, Prior::Scale::kLog, true},
-                        "r, fall of the pressure at 10 kPa above the cold one",
+                        between(0.0, 100.0),
+                        {0.2, 2.0, Prior::Scale::kLog},
+                        "r, fall of the pressure at the temperature at which it was set, 10 kPa above the cold one",
                         0.0},
                        {"power", between(0.3, 6.0), {0.8, 2.5}, "n"}};
     info.states = {{"gas_lost", 0.01, "s, share of the gas that was filled in"}};
@@ -207,9 +207,8 @@ struct GasByPressure {
 
   static std::string describe(const std::vector<double>& at) {
     constexpr double kPa_per_h = 1e3 / 3600.0;
-    return fmt::format("gas that {} at {:.2g} kPa/h at 10 kPa above the cold pressure, a rate that {} above it",
-                       at[kRate] > 0.0 ? "leaves" : "enters", std::abs(at[kRate]) / kPa_per_h,
-                       show_growth("pressure", at[kPower]));
+    return fmt::format("gas that leaves at {:.2g} kPa/h at 10 kPa above the cold pressure, a rate that {} above it",
+                       at[kRate] / kPa_per_h, show_growth("pressure", at[kPower]));
   }
 
   template <class S>

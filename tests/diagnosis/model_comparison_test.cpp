@@ -74,7 +74,7 @@ TEST_CASE("a second effect that gains much acts, one that gains little may be an
   }
 }
 
-TEST_CASE("an error of a law gains little where the effect itself gains little", "[fast]") {
+TEST_CASE("the less the first effect gains, the less likely a second one is an error of its law", "[fast]") {
   constexpr double kSecond_nats = 6.0;
   double before = 0.0;
   for (const double first_nats : {6.0, 30.0, 150.0, 750.0, 3750.0}) {
@@ -100,4 +100,19 @@ TEST_CASE("a pair of which both effects are clear keeps its probability", "[fast
     }
   }
   CHECK(pair > 0.8);
+}
+
+TEST_CASE("what came from an error of the law is a part of a hypothesis", "[fast]") {
+  const tests::ComparedSet compared(
+      tests::measure_on_drum({tests::act("bearing_warmup", 2.0), tests::act("slow_leak", 5.0), tests::act("rim_heat")},
+                             {tests::plan_skim_run()}),
+      {"bearing_warmup", "rim_heat", "slow_leak", "torque_zero_drift", "gas_heat_transfer"});
+  bool has_triple = false;
+  for (const Candidate& one : compared.comparison.candidates) {
+    CHECK(one.of_law_error >= 0.0);
+    CHECK(one.of_law_error <= one.probability * (1.0 + 1e-12));
+    has_triple = has_triple || one.fit.hypothesis.terms.size() == 3;
+  }
+  CHECK(has_triple);
+  for (const Unfitted& one : compared.comparison.unfitted) CHECK(one.probability >= 0.0);
 }

@@ -169,7 +169,7 @@ TEST_CASE("what cannot be told from two effects stands below", "[fast]") {
   made.causes[0].effects = {"bearing_warmup", "slow_leak"};
   made.causes[0].indistinguishable_from = {"rim_heat"};
   CHECK_THAT(line_of(format_summary(made), "Or as well"),
-             Contains("rim_heat in place of one of them (this set cannot tell)"));
+             Contains("rim_heat in place of one or more of them (this set cannot tell)"));
   check_layout(format_summary(made), 15);
 }
 
