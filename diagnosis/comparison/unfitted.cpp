@@ -38,7 +38,7 @@ struct Below {
 };
 
 /// Of a hypothesis with both signs of its terms.
-Below find_fitted(const Comparison& comparison, const std::vector<std::string>& names) {
+Below sum_below(const Comparison& comparison, const std::vector<std::string>& names) {
   Below sum;
   for (const Candidate& candidate : comparison.candidates) {
     if (candidate.fit.hypothesis.names() != names) continue;
@@ -94,7 +94,7 @@ std::vector<Unfitted> list_unfitted(const Study& study, const Comparison& compar
     if (terms >= kMostTerms) continue;
     const std::vector<std::string> names = on_top.hypothesis.names();
     const double odds = find_prior(study.settings, terms + 1) / find_prior(study.settings, terms);
-    add_on_top_of(names, find_fitted(comparison, names), odds, on_top.screened, known, all);
+    add_on_top_of(names, sum_below(comparison, names), odds, on_top.screened, known, all);
   }
   return all;
 }
