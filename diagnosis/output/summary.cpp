@@ -110,12 +110,20 @@ std::string trace_line(const Cause& trace) {
   return line("Cause", fmt::format("{}; probability {}", text, show_probability(trace.probability)));
 }
 
+/// An effect of a cause; where the cause has several, with the probability that this one acts.
+std::string describe_member(std::size_t i, const Cause& cause, const Findings& findings) {
+  const std::string& effect = cause.effects[i];
+  const std::string text = describe_effect(effect, cause);
+  if (cause.effects.size() == 1) return text;
+  return fmt::format("{}; acts {}", text, show_probability(probability_of(findings, effect)));
+}
+
 std::string cause_line(const Findings& findings) {
   if (findings.trace.has_value() && findings.verdict == Verdict::kNoGap) return trace_line(*findings.trace);
   if (findings.verdict == Verdict::kNoGap) return line("Cause", "none needed");
   if (findings.causes.empty()) return line("Cause", "none of the catalog");
   const Cause& cause = findings.causes.front();
-  return line("Cause", describe_effect(cause.effects.front(), cause));
+  return line("Cause", describe_member(0, cause, findings));
 }
 
 std::string describe_alternatives(const Cause& cause) {
@@ -146,7 +154,7 @@ std::string second_line(const Findings& findings) {
   const Cause& cause = findings.causes.front();
   std::string more;
   for (std::size_t i = 1; i < cause.effects.size(); ++i) {
-    more += line("  with", describe_effect(cause.effects[i], cause));
+    more += line("  with", describe_member(i, cause, findings));
   }
   if (!more.empty()) return more;
   if (!cause.indistinguishable_from.empty()) return line("or as well", describe_alternatives(cause));

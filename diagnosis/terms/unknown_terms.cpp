@@ -193,13 +193,15 @@ struct GasByPressure {
     info.equation =
         "m/m_0 <- (m/m_0)(1 - s), ds/dt = r ((p - p_cold)/10 kPa)^n/(p_cold + p_amb) above p_cold, 0 below; set back "
         "by filling";
-    info.source = "Assumed: all numbers; n: 1 for a narrow gap, large for a valve that opens at a pressure";
+    info.source =
+        "Assumed: all numbers; n: large for a valve or a crack that opens at a pressure, and above 1.2, since a leak "
+        "that hardly depends on the pressure is slow_leak";
     info.parameters = {{"rate_kPa_per_h",
                         between(0.0, 100.0),
                         {0.2, 2.0, Prior::Scale::kLog},
                         "r, fall of the pressure at the temperature at which it was set, 10 kPa above the cold one",
                         0.0},
-                       {"power", between(0.3, 6.0), {0.8, 2.5}, "n"}};
+                       {"power", between(1.2, 8.0), {1.5, 3.5}, "n"}};
     info.states = {{"gas_lost", 0.01, "s, share of the gas that was filled in"}};
     info.visible_in = {quantities::kCavityPressure};
     return info;

@@ -161,6 +161,8 @@ TEST_CASE("two effects together both show their size", "[fast]") {
                                {"slow_leak.rate_kPa_per_h", 1.0, 0.1, 0.8, 1.2, "kPa/h"}};
   CHECK_THAT(line_of(format_summary(made), "Cause"), Contains("bearing_warmup: fall 0.02 1/K (95 %: 0.01 to 0.03)"));
   CHECK_THAT(line_of(format_summary(made), "  with"), Contains("slow_leak: rate 1 kPa/h (95 %: 0.8 to 1.2)"));
+  made.probability["slow_leak"] = 0.61;
+  CHECK_THAT(format_summary(made), Contains("0.8 to 1.2); acts 61 %"));
   check_layout(format_summary(made), 14);
 }
 
