@@ -110,12 +110,13 @@ std::string trace_line(const Cause& trace) {
   return line("Cause", fmt::format("{}; probability {}", text, show_probability(trace.probability)));
 }
 
-/// An effect of a cause; where the cause has several, with the probability that this one acts.
+/// An effect of a cause with its size; where the cause has several, with the probability that this one acts.
 std::string describe_member(std::size_t i, const Cause& cause, const Findings& findings) {
   const std::string& effect = cause.effects[i];
   const std::string text = describe_effect(effect, cause);
   if (cause.effects.size() == 1) return text;
-  return fmt::format("{}; acts {}", text, show_probability(probability_of(findings, effect)));
+  const std::string acts = fmt::format(" ({})", show_probability(probability_of(findings, effect)));
+  return effect + acts + text.substr(effect.size());
 }
 
 std::string cause_line(const Findings& findings) {
