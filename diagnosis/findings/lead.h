@@ -32,11 +32,12 @@ struct NamedHypotheses {
   const std::vector<Unfitted>& unfitted;
 };
 
-/// The hypothesis that is named where this is the likeliest: with those of its effects that act with at least half of
-/// the probability that any of them acts (the median probability model), and with one effect more where it is likelier
-/// than not that one acts beside them. It may be open which one: hypotheses that the set cannot tell from the named one
-/// count for it, unless all their effects together are too many to be named. The likeliest itself where what would be
-/// named was not fitted.
+/// The lead where this hypothesis is the likeliest. A hypothesis passes if each of its effects acts with at least half
+/// of the probability that any of them acts (the median probability model). Hypotheses of as many effects that the set
+/// cannot tell from it count as if they had its effects, unless all their effects together are too many to be named.
+/// The lead is, in this order: the likeliest hypothesis that has one effect more, if it passes; the given one, if it
+/// passes; what follows in the same way from the one with only those of its effects that are likely enough; the given
+/// one where that was not fitted.
 /// Checked  tests/diagnosis/lead_test.cpp
 const Candidate* choose_lead(const Study& study, const NamedHypotheses& all, const Candidate& likeliest);
 

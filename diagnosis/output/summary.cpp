@@ -82,11 +82,11 @@ std::string describe_size(const ParameterEstimate& size) {
 }
 
 /// An effect with its size and the interval of that, as far as they are known.
-std::string describe_effect(const std::string& effect, const Cause& cause) {
+std::string describe_effect(const std::string& effect, const Cause& cause, const std::string& behind_name = "") {
   const ParameterEstimate* size = find_size(cause, effect);
-  if (size == nullptr) return effect;
-  return fmt::format("{}: {} (95 %: {:.3g} to {:.3g}){}", effect, describe_size(*size), size->low_95, size->high_95,
-                     describe_limit(*size));
+  if (size == nullptr) return effect + behind_name;
+  return fmt::format("{}{}: {} (95 %: {:.3g} to {:.3g}){}", effect, behind_name, describe_size(*size), size->low_95,
+                     size->high_95, describe_limit(*size));
 }
 
 /// What a cause changes: "0.21 % of the energy, 0.12 noise floors".
@@ -113,10 +113,8 @@ std::string trace_line(const Cause& trace) {
 /// An effect of a cause with its size; where the cause has several, with the probability that this one acts.
 std::string describe_member(std::size_t i, const Cause& cause, const Findings& findings) {
   const std::string& effect = cause.effects[i];
-  const std::string text = describe_effect(effect, cause);
-  if (cause.effects.size() == 1) return text;
-  const std::string acts = fmt::format(" ({})", show_probability(probability_of(findings, effect)));
-  return effect + acts + text.substr(effect.size());
+  if (cause.effects.size() == 1) return describe_effect(effect, cause);
+  return describe_effect(effect, cause, fmt::format(" ({})", show_probability(probability_of(findings, effect))));
 }
 
 std::string cause_line(const Findings& findings) {
