@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "diagnosis/comparison/evidence.h"
+#include "diagnosis/comparison/law_errors.h"
 #include "sim/core/error.h"
 #include "sim/core/parallel.h"
 
@@ -89,6 +90,18 @@ void Evaluator::weigh(Candidate& candidate) const {
     logs.push_back(repeated.integrate(distorted).log_value);
   }
   candidate.log_discrepancy = log_sum_exp(logs) - std::log(static_cast<double>(logs.size()));
+}
+
+double Evaluator::weigh_with_loose_laws(const Candidate& candidate, const std::vector<const Term*>& terms) const {
+  const Fit loose = loosen_laws(study_, candidate.fit, terms);
+  const ModelError& error = study_.settings.model_error;
+  std::vector<AmplitudePrior> small;
+  for (const double amplitude : expect_model_error(error, candidate)) {
+    small.push_back(law_amplitude(error.baseline_floors, amplitude));
+  }
+  const Evidence of_time(study_.discrepancy, loose);
+  const Evidence repeated(of_conditions_, loose);
+  return log_sum_exp({of_time.integrate(small).log_value, repeated.integrate(small).log_value}) - std::log(2.0);
 }
 
 /// One fit under given model error; weighed under the error in proportion to what it changes.

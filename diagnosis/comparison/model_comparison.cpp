@@ -187,15 +187,30 @@ Candidate* find_nearest_smaller(Comparison& comparison, const Candidate& larger)
   return nearest;
 }
 
+/// What a hypothesis with one effect more gains over `smaller` where the laws of the effects of `smaller` are loose.
+double calc_gain_beside_loose_laws(const Evaluator& evaluator, const Candidate& larger, const Candidate& smaller) {
+  std::vector<const Term*> common;
+  for (const SignedTerm& one : larger.fit.hypothesis.terms) {
+    if (smaller.fit.hypothesis.contains(*one.term)) common.push_back(one.term);
+  }
+  return evaluator.weigh_with_loose_laws(larger, common) - evaluator.weigh_with_loose_laws(smaller, common);
+}
+
 /// Moves to hypotheses with one effect less what their last effect may be an error of their law.
-void weigh_law_errors(const Study& study, Comparison& comparison) {
+void weigh_law_errors(const Study& study, const Evaluator& evaluator, Comparison& comparison) {
+  constexpr double kDecides = 1e-4;  // Assumed: a smaller probability decides nothing, wherever it goes
   for (std::size_t terms = kMostTerms; terms > 1; --terms) {
     for (Candidate& larger : comparison.candidates) {
       if (larger.fit.hypothesis.terms.size() != terms || larger.fit.hypothesis.has_unknown()) continue;
       Candidate* smaller = find_nearest_smaller(comparison, larger);
       if (smaller == nullptr) continue;
-      const double law_error =
-          calc_law_error(larger.log_evidence - smaller->log_evidence, smaller->log_evidence - study.null.log_evidence);
+      SecondGain gain;
+      gain.nats = gain.beside_loose_laws_nats = larger.log_evidence - smaller->log_evidence;
+      gain.of_others_nats = smaller->log_evidence - study.null.log_evidence;
+      if (larger.probability >= kDecides) {
+        gain.beside_loose_laws_nats = calc_gain_beside_loose_laws(evaluator, larger, *smaller);
+      }
+      const double law_error = calc_law_error(gain);
       const double moved = law_error * larger.probability;
       larger.probability -= moved;
       larger.of_law_error *= 1.0 - law_error;
@@ -238,10 +253,9 @@ double find_prior(const StudySettings& settings, const Hypothesis& hypothesis) {
   return settings.priors.family_beside / families * find_prior(settings, hypothesis.terms.size() - 1);
 }
 
-double calc_law_error(double gain_nats, double gain_of_others_nats) {
-  const double gain = std::max(0.0, gain_nats);
-  const double in_scale = gain / thresholds::kLawError_nats;
-  const double share = std::sqrt(gain / std::max(1.0, gain_of_others_nats));
+double calc_law_error(const SecondGain& gain) {
+  const double in_scale = std::max(0.0, gain.beside_loose_laws_nats) / thresholds::kLawError_nats;
+  const double share = std::sqrt(std::max(0.0, gain.nats) / std::max(1.0, gain.of_others_nats));
   const double in_share = share / thresholds::kLawErrorShare;
   const double odds = thresholds::kLawErrorOdds * std::exp(-0.5 * (in_scale * in_scale + in_share * in_share));
   return odds / (1.0 + odds);
@@ -278,7 +292,7 @@ Comparison compare_models(Study& study) {
                comparison);
     assign_probabilities(study, comparison);
   }
-  weigh_law_errors(study, comparison);
+  weigh_law_errors(study, evaluator, comparison);
   screen_on_top_of_likeliest(study, comparison);
   add_unfitted(study, comparison);
   return comparison;

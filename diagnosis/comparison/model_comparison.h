@@ -34,14 +34,21 @@ double find_prior(const StudySettings& settings, std::size_t terms);
 /// Of one hypothesis, one of whose terms may be a family of unknown effects.
 double find_prior(const StudySettings& settings, const Hypothesis& hypothesis);
 
+/// Gains of log evidence, nats, that say whether a further effect acts.
+struct SecondGain {
+  double nats = 0.0;                    // by the further effect
+  double beside_loose_laws_nats = 0.0;  // likewise where the others' laws may be wrong (loosen_laws())
+  double of_others_nats = 0.0;          // by the others over the baseline
+};
+
 /// Probability that an effect fitted beside others is an error of their laws and does not act.
-/// Equation  P = o/(1 + o), o = 1.5 exp(-((g/10)^2 + (s/0.15)^2)/2), s = sqrt(g/G)
-/// Symbols   g >= 0 gain of log evidence by the effect, nats (below 0: as 0); G >= 1 that of the others over the
-///           baseline, nats (below 1: as 1); s the relative error of the others' laws that would gain g: a change of
-///           the readings by a share s gains the share s^2 in squares
+/// Equation  P = o/(1 + o), o = 1.5 exp(-((g_l/6)^2 + (s/0.2)^2)/2), s = sqrt(g/G)
+/// Symbols   g, g_l >= 0 gain by the effect and gain by it beside loose laws, nats (below 0: as 0); G >= 1 that of the
+///           others, nats (below 1: as 1); s the relative error of the others' laws that would gain g: a change of the
+///           readings by a share s gains the share s^2 in squares
 /// Source    Assumed: thresholds.h, kLawErrorOdds
 /// Checked   tests/diagnosis/model_comparison_test.cpp
-double calc_law_error(double gain_nats, double gain_of_others_nats);
+double calc_law_error(const SecondGain& gain);
 
 /// Fits the baseline (study.null), screens, refits every term that could matter from its best start, then pairs on
 /// top of the best, then triples on top of the best pair where two terms are asked for, and weighs all. Of pairs and

@@ -62,30 +62,43 @@ TEST_CASE("hypotheses of one effect, and of two, gain what their priors gain", "
 TEST_CASE("a second effect that gains much acts, one that gains little may be an error of the first one's law",
           "[fast]") {
   constexpr double kFirst_nats = 1e5;  // of which a small error would gain as much as any second effect here
-  CHECK(calc_law_error(200.0, kFirst_nats) < 1e-9);
-  CHECK(calc_law_error(4.0, kFirst_nats) > 0.5);
-  CHECK(calc_law_error(-3.0, kFirst_nats) == calc_law_error(0.0, kFirst_nats));
+  const auto judge = [](double gain_nats) { return calc_law_error({gain_nats, gain_nats, kFirst_nats}); };
+  CHECK(judge(200.0) < 1e-9);
+  CHECK(judge(4.0) > 0.5);
+  CHECK(judge(-3.0) == judge(0.0));
   double before = 1.0;
-  for (double gain_nats = 0.0; gain_nats < 60.0; gain_nats += 2.0) {
-    const double now = calc_law_error(gain_nats, kFirst_nats);
+  for (double gain_nats = 0.0; gain_nats < 40.0; gain_nats += 2.0) {
+    const double now = judge(gain_nats);
     CHECK(now > 0.0);
     CHECK(now < before);
     before = now;
   }
 }
 
+TEST_CASE("a second effect whose gain an error of the first one's law makes as well hardly acts", "[fast]") {
+  constexpr double kFirst_nats = 5000.0;
+  const double kept = calc_law_error({15.0, 14.0, kFirst_nats});
+  const double lost = calc_law_error({15.0, 1.0, kFirst_nats});
+  CHECK(kept < 0.1);
+  CHECK(lost > 0.5);
+  CHECK(calc_law_error({15.0, -5.0, kFirst_nats}) == calc_law_error({15.0, 0.0, kFirst_nats}));
+}
+
 TEST_CASE("the less the first effect gains, the less likely a second one is an error of its law", "[fast]") {
-  constexpr double kSecond_nats = 6.0;
+  const auto judge = [](double gain_nats, double first_nats) {
+    return calc_law_error({gain_nats, gain_nats, first_nats});
+  };
+  constexpr double kSecond_nats = 4.0;
   double before = 0.0;
-  for (const double first_nats : {6.0, 30.0, 150.0, 750.0, 3750.0}) {
-    const double now = calc_law_error(kSecond_nats, first_nats);
+  for (const double first_nats : {4.0, 20.0, 100.0, 500.0, 2500.0}) {
+    const double now = judge(kSecond_nats, first_nats);
     CHECK(now > before);
     before = now;
   }
-  CHECK(calc_law_error(kSecond_nats, 30.0) < 0.2);    // an error of 45 %
-  CHECK(calc_law_error(kSecond_nats, 2400.0) > 0.5);  // of 5 %
-  CHECK(calc_law_error(kSecond_nats, -2.0) == calc_law_error(kSecond_nats, 1.0));
-  CHECK(calc_law_error(0.0, 0.0) > 0.5);
+  CHECK(judge(kSecond_nats, 20.0) < 0.2);    // an error of 45 %
+  CHECK(judge(kSecond_nats, 1600.0) > 0.5);  // of 5 %
+  CHECK(judge(kSecond_nats, -2.0) == judge(kSecond_nats, 1.0));
+  CHECK(judge(0.0, 0.0) > 0.5);
 }
 
 TEST_CASE("a pair of which both effects are clear keeps its probability", "[fast]") {
