@@ -40,6 +40,13 @@ double Air::at(double time_s) const {
   return mean_degC + swing_dK * std::sin(two_pi<double>() * time_s / period_s + phase) + slope_K_per_s * time_s;
 }
 
+void add_runs(std::vector<RunPlan> further, Campaign& campaign) {
+  for (RunPlan& run : further) {
+    run.index = campaign.runs.size();
+    campaign.runs.push_back(std::move(run));
+  }
+}
+
 Air draw_air(Draws& draws, double mean_degC) {
   Air air;
   air.mean_degC = mean_degC + draws.uniform(-0.6, 0.6);

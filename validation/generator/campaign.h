@@ -126,6 +126,9 @@ Campaign draw_runs(const CampaignOrder& order, const CampaignKind& kind, const C
                    const Specimen& specimen,
                    const std::function<std::vector<Leg>(Draws& own, const RunKind& what)>& draw_legs);
 
+/// Adds runs after those of a campaign.
+void add_runs(std::vector<RunPlan> further, Campaign& campaign);
+
 /// Slow swing and slope of the air about `mean_degC`, within a degree or so.
 Air draw_air(Draws& draws, double mean_degC);
 

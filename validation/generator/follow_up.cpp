@@ -188,10 +188,12 @@ std::string follow_up_folder(const FollowUpOrder& order) {
       .string();
 }
 
-Files make_follow_up(const std::string& set, const std::string& number, const Json& truth,
-                     const std::string& plan_folder) {
+namespace {
+
+/// The runs of the plan for a case of the set.
+std::vector<RunPlan> read_planned_runs(const std::string& set, const std::string& number, const SetOrder& made_by,
+                                       const std::string& plan_folder) {
   const std::string plan_file = plan_folder + "/plan.json";
-  const SetOrder made_by = read_order(truth);
   const std::string folder = validation::case_folder(set, number);
   require_same_files(folder, made_by);
   const Laboratory lab = draw_laboratory(made_by);
@@ -206,7 +208,22 @@ Files make_follow_up(const std::string& set, const std::string& number, const Js
     if (is_taken)
       throw InputError({"the case has this run already", plan_file, 0, "id", run.id, "names of new runs", ""});
   }
-  return follow_up(made_by, std::move(plan.runs));
+  return std::move(plan.runs);
+}
+
+}  // namespace
+
+Files make_follow_up(const std::string& set, const std::string& number, const Json& truth,
+                     const std::string& plan_folder) {
+  const SetOrder made_by = read_order(truth);
+  return follow_up(made_by, read_planned_runs(set, number, made_by, plan_folder));
+}
+
+UpperBound find_upper_bound_after(const std::string& set, const std::string& number, const Json& truth,
+                                  const std::string& plan_folder) {
+  const SetOrder made_by = read_order(truth);
+  if (plan_folder.empty()) return find_upper_bound(KnownSet(made_by), made_by);
+  return find_upper_bound(KnownSet(made_by, read_planned_runs(set, number, made_by, plan_folder)), made_by);
 }
 
 std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress) {

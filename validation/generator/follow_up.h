@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "validation/generator/upper_bound.h"
 #include "validation/generator/validation_set.h"
 
 namespace rollrig::generator {
@@ -30,5 +31,10 @@ std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress
 /// Errors  InputError: as write_follow_up()
 Files make_follow_up(const std::string& set, const std::string& number, const Json& truth,
                      const std::string& plan_folder);
+
+/// What the ideal observer makes of these files; without a folder, of the case as it is.
+/// Errors  InputError: as write_follow_up()
+UpperBound find_upper_bound_after(const std::string& set, const std::string& number, const Json& truth,
+                                  const std::string& plan_folder);
 
 }  // namespace rollrig::generator

@@ -34,7 +34,8 @@ void subtract(double factor, const KnownSet::Change& b, KnownSet::Change& a) {
 
 }  // namespace
 
-KnownSet::KnownSet(const SetOrder& order) : order_(order), lab_(draw_laboratory(order)) {
+KnownSet::KnownSet(const SetOrder& order, std::vector<RunPlan> further) : order_(order), lab_(draw_laboratory(order)) {
+  add_runs(std::move(further), lab_.campaign);
   const Effects effects = draw_effects(order_, lab_.specimen);
   const std::vector<RunRecord> records = record_all(lab_.specimen, lab_.campaign, effects);
   for (std::size_t r = 0; r < records.size(); ++r) {

@@ -13,7 +13,8 @@ namespace rollrig::generator {
 /// the force from 30 s after each change of load on.
 class KnownSet {
  public:
-  explicit KnownSet(const SetOrder& order);
+  /// With further runs after its own.
+  explicit KnownSet(const SetOrder& order, std::vector<RunPlan> further = {});
 
   /// Of the set's own effects.
   Eigen::VectorXd signal() const;

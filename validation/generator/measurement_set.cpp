@@ -130,10 +130,7 @@ Json describe_drawn(const SetOrder& order, const Laboratory& lab, Effects& effec
 Files follow_up(const SetOrder& order, std::vector<RunPlan> further) {
   Laboratory lab = draw_laboratory(order);
   const Effects effects = draw_effects(order, lab.specimen);
-  for (RunPlan& run : further) {
-    run.index = lab.campaign.runs.size();
-    lab.campaign.runs.push_back(std::move(run));
-  }
+  add_runs(std::move(further), lab.campaign);
   return write_files(order, lab, record_all(lab.specimen, lab.campaign, effects), order.noise_free);
 }
 

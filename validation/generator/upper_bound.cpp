@@ -11,7 +11,6 @@
 #include "sim/core/parallel.h"
 #include "sim/core/parse_json.h"
 #include "validation/files.h"
-#include "validation/generator/known_set.h"
 #include "validation/generator/observer.h"
 
 namespace fs = std::filesystem;
@@ -96,12 +95,15 @@ std::vector<std::string> UpperBound::twins() const {
   return ids;
 }
 
-UpperBound find_upper_bound(const SetOrder& order, bool detection_alone) {
-  const KnownSet set(order);
+UpperBound find_detectability(const KnownSet& set) {
+  return {Observer(set.unknowns()).reduce(set.signal()).norm(), {}};
+}
+
+UpperBound find_upper_bound(const KnownSet& set, const SetOrder& order) {
   const Observer observer(set.unknowns());
   const Eigen::VectorXd signal = observer.reduce(set.signal());
   UpperBound bound{signal.norm(), {}};
-  if (detection_alone || std::any_of(order.effects.begin(), order.effects.end(), is_outside)) return bound;
+  if (std::any_of(order.effects.begin(), order.effects.end(), is_outside)) return bound;
   for (const EffectKind* rival : set.rivals()) {
     if (order.effects.size() == 1 && order.effects.front() == rival->id) continue;
     const Eigen::MatrixXd alternatives = observer.reduce(find_alternatives(set, order, *rival));
@@ -119,7 +121,9 @@ std::size_t write_upper_bounds(UpperBoundOrder& order, const Progress& progress)
   const auto bound_case = [&](std::size_t i) {
     const auto& [number, set] = orders[i];
     require_same_files(validation::case_folder(order.set, number), set);
-    described[i] = describe_bound(set, find_upper_bound(set, order.detection_alone));
+    const KnownSet known(set);
+    described[i] =
+        describe_bound(set, order.detection_alone ? find_detectability(known) : find_upper_bound(known, set));
   };
   parallel_for(orders.size(), order.threads, bound_case, progress);
   Json json = {{"format", validation::kUpperBoundFormat},

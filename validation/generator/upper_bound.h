@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/generator/known_set.h"
 #include "validation/generator/validation_set.h"
 
 namespace rollrig::generator {
@@ -15,16 +16,22 @@ namespace rollrig::generator {
 /// Equation  d'^2 = s^T C^-1 s,  C = N + U U^T
 /// Symbols   s what the effects change, N noise, U offsets and base parameters by one prior standard deviation
 struct UpperBound {
+  static constexpr double kDetectable = 5.0;  // d'
+
   double d_prime = 0.0;
   std::map<std::string, double> log_bayes_factors;  // expected, against each other effect that it could be
 
+  /// Whether the observer sees that something acts, and tells it from all else.
+  bool is_named() const { return d_prime >= kDetectable && twins().empty(); }
   /// Effects that the data do not tell from the truth.
   std::vector<std::string> twins() const;
 };
 
 /// Of a case with effects. Those outside of the catalog are compared with no others, a pair with all single effects,
-/// an effect with all but itself. `detection_alone` leaves the comparison out, which is most of the work.
-UpperBound find_upper_bound(const SetOrder& order, bool detection_alone = false);
+/// an effect with all but itself.
+UpperBound find_upper_bound(const KnownSet& set, const SetOrder& order);
+/// d' alone, which is a tenth of the work.
+UpperBound find_detectability(const KnownSet& set);
 
 struct UpperBoundOrder {
   std::string set;

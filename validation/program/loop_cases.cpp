@@ -10,6 +10,7 @@
 #include <mutex>
 #include <set>
 
+#include "diagnosis/campaign/campaign.h"
 #include "diagnosis/loop/test_loop.h"
 #include "diagnosis/next_test/next_test.h"
 #include "sim/core/error.h"
@@ -83,6 +84,27 @@ ProposedTest draw_test(const MeasurementSet& set, const diagnosis::TestBudget& b
       possible[static_cast<std::size_t>(random.uniform() * static_cast<double>(possible.size()))]);
 }
 
+/// The tests of the campaign for the machine and tire of a set that can be done with it, in their order.
+std::vector<ProposedTest> list_campaign(const MeasurementSet& set, double hours,
+                                        const std::vector<std::string>& impossible) {
+  diagnosis::CampaignInput input;
+  input.rig = set.rig.has_value() ? set.rig->path : set.kind->word;
+  input.tire = set.tire.path;
+  if (set.vehicle.has_value()) input.vehicle = set.vehicle->path;
+  input.hours = hours;
+  input.threads = 1;
+  const diagnosis::PlannedCampaign campaign = diagnosis::plan_campaign(input);
+  const std::vector<diagnosis::PlannedTest> menu = make_test_menu(diagnosis::PreparedSet(set));
+  std::vector<ProposedTest> tests;
+  for (const diagnosis::PlannedTest& planned : campaign.tests) {
+    const auto same = std::find_if(menu.begin(), menu.end(), [&](const auto& one) { return one.id == planned.id; });
+    const bool is_possible =
+        same != menu.end() && std::find(impossible.begin(), impossible.end(), planned.id) == impossible.end();
+    if (is_possible) tests.push_back(diagnosis::make_proposed_test(*same));
+  }
+  return tests;
+}
+
 /// Runs the loop of one case.
 void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
   const std::string& number = loop.truth.number;
@@ -97,6 +119,15 @@ void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
   ledger.hours = order.hours;
   MeasurementSet set = first;
   std::vector<ProposedTest> measured;
+  std::string plan;  // of the measured tests, for the generator
+  const std::vector<ProposedTest> campaign =
+      order.tests == LoopTests::kFixed ? list_campaign(first, order.hours, impossible) : std::vector<ProposedTest>{};
+  const auto choose_test = [&](const diagnosis::Diagnosis& found, const diagnosis::TestBudget& budget) {
+    if (order.tests == LoopTests::kDrawn) return draw_test(first, budget, random);
+    if (order.tests == LoopTests::kProposed) return found.plan.value_or(ProposedTest{});
+    const std::size_t next = ledger.tests.size();
+    return next < campaign.size() && campaign[next].hours <= budget.hours ? campaign[next] : ProposedTest{};
+  };
   while (true) {
     diagnosis::DiagnosisOptions options;
     options.threads = 1;
@@ -106,11 +137,14 @@ void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
     loop.slowest_step_s =
         std::max(loop.slowest_step_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     ledger.answers.push_back(diagnosis::make_answer(ledger, found));
+    if (order.with_ideal) {
+      loop.ideal.push_back(generator::find_upper_bound_after(order.set, number, truth, plan).is_named());
+    }
     if (diagnosis::is_settled(ledger.answers.back())) {
       ledger.state = LoopState::kNamed;
       return;
     }
-    ProposedTest test = order.drawn ? draw_test(first, *options.budget, random) : found.plan.value_or(ProposedTest{});
+    ProposedTest test = choose_test(found, *options.budget);
     if (test.runs.empty()) {
       ledger.state = diagnosis::find_end_without_test(ledger);
       return;
@@ -127,7 +161,7 @@ void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
                             is_failed ? LoopTestState::kFailed : LoopTestState::kMeasured});
     if (is_failed) continue;
     measured.push_back(std::move(test));
-    const std::string plan = place.write("plan", write_generator_plan(number, hash_case(folder), first, measured));
+    plan = place.write("plan", write_generator_plan(number, hash_case(folder), first, measured));
     set = measurements::read_measurement_set(
         place.write("set", generator::make_follow_up(order.set, number, truth, plan)));
   }
@@ -152,10 +186,17 @@ bool LoopOfCase::is_right_by(double hours) const {
   return last != nullptr && names_truth(*last);
 }
 
+bool LoopOfCase::is_named_by_ideal_by(double hours) const {
+  for (std::size_t i = 0; i < ideal.size(); ++i) {
+    if (ideal[i] && ledger.answers[i].hours <= hours) return true;
+  }
+  return false;
+}
+
 std::vector<LoopOfCase> loop_cases(const LoopOrder& order) {
   const Json cases = open_truth(order.set, "").cases;
   std::vector<LoopOfCase> loops;
-  for (Truth& truth : read_truths(order.set, "")) loops.push_back({std::move(truth), "", {}, 0.0, ""});
+  for (Truth& truth : read_truths(order.set, "")) loops.push_back({std::move(truth), "", {}, {}, 0.0, ""});
   std::mutex mutex;
   std::size_t done = 0;
   parallel_for(loops.size(), order.threads, [&](std::size_t i) {

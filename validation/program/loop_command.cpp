@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <map>
 
@@ -20,6 +21,7 @@ namespace {
 
 struct LoopCommandOptions {
   LoopOrder order;
+  std::string tests = kLoopTestsNames.front();
   double failing_percent = 5.0;
   std::string json;
   bool quiet = false;
@@ -32,25 +34,48 @@ std::string kind_of_case(const LoopOfCase& loop) {
   return fmt::format("{}, {}", loop.kind, of);
 }
 
-/// A row for each kind of machine and case.
-Table make_loop_table(const std::vector<LoopOfCase>& loops, double hours) {
-  std::map<std::string, std::vector<const LoopOfCase*>> groups;
+using LoopsByKind = std::map<std::string, std::vector<const LoopOfCase*>>;
+
+LoopsByKind sort_by_kind(const std::vector<LoopOfCase>& loops) {
+  LoopsByKind groups;
   for (const LoopOfCase& loop : loops) groups[kind_of_case(loop)].push_back(&loop);
-  const std::vector<double> times_h{0.0, 0.25 * hours, 0.5 * hours, hours};
+  return groups;
+}
+
+std::vector<double> list_times_h(double hours) { return {0.0, 0.25 * hours, 0.5 * hours, hours}; }
+
+std::string count(const std::vector<const LoopOfCase*>& group, const std::function<bool(const LoopOfCase&)>& is) {
+  return fmt::format("{}", std::count_if(group.begin(), group.end(), [&](const LoopOfCase* one) { return is(*one); }));
+}
+
+/// A row for each kind of machine and case.
+Table make_loop_table(const LoopsByKind& groups, double hours) {
   Table table{"Named at 95 %, alone", {"cases", "of"}, {}};
-  for (const double time_h : times_h) table.columns.push_back(fmt::format("right {:g} h", time_h));
+  for (const double time_h : list_times_h(hours)) table.columns.push_back(fmt::format("right {:g} h", time_h));
   table.columns.insert(table.columns.end(), {"wrong", "mean h"});
   for (const auto& [name, group] : groups) {
     std::vector<std::string> row{name, fmt::format("{}", group.size())};
-    const auto count = [&group = group](const auto& is) {
-      return fmt::format("{}", std::count_if(group.begin(), group.end(), is));
-    };
-    for (const double time_h : times_h)
-      row.push_back(count([&](const LoopOfCase* one) { return one->is_right_by(time_h); }));
-    row.push_back(count([](const LoopOfCase* one) { return one->is_named() && !one->is_right(); }));
+    for (const double time_h : list_times_h(hours)) {
+      row.push_back(count(group, [&](const LoopOfCase& one) { return one.is_right_by(time_h); }));
+    }
+    row.push_back(count(group, [](const LoopOfCase& one) { return one.is_named() && !one.is_right(); }));
     double sum_h = 0.0;
     for (const LoopOfCase* one : group) sum_h += diagnosis::calc_hours_used(one->ledger);
     row.push_back(fmt::format("{:.1f}", sum_h / static_cast<double>(group.size())));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// Likewise of the ideal observer.
+Table make_ideal_table(const LoopsByKind& groups, double hours) {
+  Table table{"What an ideal observer makes of the same tests", {"cases", "of"}, {}};
+  for (const double time_h : list_times_h(hours)) table.columns.push_back(fmt::format("named {:g} h", time_h));
+  for (const auto& [name, group] : groups) {
+    std::vector<std::string> row{name, fmt::format("{}", group.size())};
+    for (const double time_h : list_times_h(hours)) {
+      row.push_back(count(group, [&](const LoopOfCase& one) { return one.is_named_by_ideal_by(time_h); }));
+    }
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -62,8 +87,19 @@ Json make_loop_json(const LoopOfCase& loop) {
           {"kind", kind_of_case(loop)},
           {"right", loop.is_right()},
           {"failure", loop.failure},
+          {"ideal", loop.ideal},
           {"slowest_step_s", loop.slowest_step_s},
           {"loop", diagnosis::make_ledger_json(loop.ledger)}};
+}
+
+LoopTests find_loop_tests(const std::string& name) {
+  const auto at = std::find(kLoopTestsNames.begin(), kLoopTestsNames.end(), name);
+  if (at == kLoopTestsNames.end()) {
+    InputProblem problem = unknown_name("choice of tests", name, kLoopTestsNames);
+    problem.key = "--tests";
+    throw InputError(problem);
+  }
+  return static_cast<LoopTests>(at - kLoopTestsNames.begin());
 }
 
 int loop_command(const LoopCommandOptions& options) {
@@ -73,6 +109,7 @@ int loop_command(const LoopCommandOptions& options) {
   if (!options.json.empty()) require_writable(options.json);
   LoopOrder order = options.order;
   order.failing_share = options.failing_percent / 100.0;
+  order.tests = find_loop_tests(options.tests);
   const std::vector<LoopOfCase> loops = [&] {
     cli::ProgressLine progress("loop", options.quiet);
     order.progress = [&progress](std::size_t done, std::size_t of) {
@@ -84,14 +121,16 @@ int loop_command(const LoopCommandOptions& options) {
     const Json json = {{"format", "rollrig-loops/1"},
                        {"hours", order.hours},
                        {"seed", order.seed},
-                       {"drawn", order.drawn},
+                       {"tests", options.tests},
                        {"failing_share", order.failing_share},
                        {"cases", make_list(loops, make_loop_json)}};
     throw_if_interrupted();
     write_output(options.json, to_text(json));
   }
   if (options.quiet || options.json == "-") return cli::kDone;
-  std::cout << format_table(make_loop_table(loops, order.hours));
+  const LoopsByKind groups = sort_by_kind(loops);
+  std::cout << format_table(make_loop_table(groups, order.hours));
+  if (order.with_ideal) std::cout << format_table(make_ideal_table(groups, order.hours));
   for (const LoopOfCase& loop : loops) {
     if (!loop.failure.empty()) std::cout << wrap(fmt::format("case {}: {}", loop.truth.number, loop.failure), 2);
   }
@@ -107,7 +146,9 @@ void add_loop_command(CLI::App& app, cli::Action& action) {
   add_set_to(*command, options->order.set);
   command->add_option("--hours", options->order.hours, "Hours of the machine for each case")->capture_default_str();
   command->add_option("--failing", options->failing_percent, "Percent of tests that fail")->capture_default_str();
-  command->add_flag("--drawn", options->order.drawn, "Tests drawn from the menu, instead of the best");
+  command->add_option("--tests", options->tests,
+                      fmt::format("Which tests are done: {} [{}]", fmt::join(kLoopTestsNames, ", "), options->tests));
+  command->add_flag("--ideal", options->order.with_ideal, "Also what an ideal observer makes of the same tests");
   command->add_option("--seed", options->order.seed, "Of failures and drawn tests")->capture_default_str();
   cli::add_output_option(*command, "--json", options->json, "File for all loops, - for standard output");
   cli::add_threads(*command, options->order.threads, "Cases at the same time [as many as the machine has cores]");

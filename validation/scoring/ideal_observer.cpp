@@ -1,6 +1,7 @@
 // What an ideal observer of the same cases would reach.
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
+#include <cmath>
 
 #include "diagnosis/thresholds.h"
 #include "validation/scoring/score.h"
@@ -23,6 +24,19 @@ std::optional<double> find_chance_of_small_set(const Case& one) {
 std::optional<double> find_chance_of_pair(const Case& one, double detectable_d_prime) {
   if (!one.d_prime.has_value() || !one.identifiable.has_value()) return std::nullopt;
   return *one.d_prime >= detectable_d_prime && *one.identifiable ? 1.0 : 0.0;
+}
+
+std::optional<bool> is_pair_named_by_ideal(const Case& one) {
+  if (!one.is_pair() || one.log_bayes_factors.empty()) return std::nullopt;
+  const diagnosis::ComparisonPriors priors;
+  const auto effects = static_cast<double>(one.log_bayes_factors.size());  // a pair is compared with all of them
+  const double prior_odds = 2.0 * priors.pairs / ((effects - 1.0) * priors.singles);
+  double against = 0.0;
+  for (const double nats : one.log_bayes_factors) {
+    const double least = std::max(0.0, nats);
+    against += std::exp(-least) * std::sqrt(1.0 + 2.0 * least) / prior_odds;
+  }
+  return against < 1.0;
 }
 
 std::optional<double> find_mean_chance(const std::vector<Case>& cases, const Chance& chance) {

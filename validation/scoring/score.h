@@ -64,6 +64,15 @@ std::optional<double> find_chance_of_small_set(const Case& one);
 /// 1 where a pair is told from every single effect, else 0.
 std::optional<double> find_chance_of_pair(const Case& one, double detectable_d_prime);
 
+/// Whether an ideal observer who starts from the probabilities of the diagnosis names a pair: it is then likelier than
+/// all single effects together. None without an upper bound that compares it with them.
+/// Equation  sum_r 1/o_r < 1,  o_r = (pi_2/pi_1) exp(L_r) / sqrt(1 + 2 L_r)
+/// Symbols   L_r expected log Bayes factor against the single effect r, nats; pi_2, pi_1 probability of each pair and of
+///           each single effect before the measurement
+/// Validity  the root: a further size that is normal before the measurement, of which the data show sqrt(2 L_r)
+///           standard deviations. Pairs of other effects are not compared, so that the observer names too many
+std::optional<bool> is_pair_named_by_ideal(const Case& one);
+
 /// Mean chance; none where one of the cases has none, or there is no case.
 std::optional<double> find_mean_chance(const std::vector<Case>& cases, const Chance& chance);
 

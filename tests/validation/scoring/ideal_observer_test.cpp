@@ -7,7 +7,7 @@
 
 using namespace rollrig;
 using namespace rollrig::tests;
-using validation::Case;
+using validation::Case, validation::is_pair_named_by_ideal;
 
 namespace {
 
@@ -45,4 +45,23 @@ TEST_CASE("a bound stands where all cases of a figure have what it needs", "[fas
   CHECK_FALSE(bound_of({alike, detected}, "top1_set_aware").has_value());
   CHECK(bound_of({alike, detected}, "detection").has_value());
   CHECK_FALSE(bound_of({say_no_gap(make_case("0001", {"rim_heat"}))}, "detection").has_value());
+}
+
+TEST_CASE("an ideal observer names a pair whose second effect makes up for its smaller prior", "[fast]") {
+  const auto is_named = [](double nats, std::size_t effects) {
+    std::vector<double> log_bayes_factors(effects, 200.0);
+    log_bayes_factors.front() = nats;
+    return is_pair_named_by_ideal(seen({"windage", "rim_heat"}, 20.0, log_bayes_factors));
+  };
+  CHECK_FALSE(*is_named(3.5, 30));  // can be told from all single effects, and is too rare
+  CHECK(*is_named(6.0, 30));
+  const auto find_least = [&](std::size_t effects) {
+    double nats = 0.0;
+    while (!*is_named(nats, effects)) nats += 0.01;
+    return nats;
+  };
+  CHECK(find_least(60) > find_least(20) + 0.9);  // a third of the prior: ln 3 and a little more
+  CHECK(find_least(60) < find_least(20) + 1.5);
+  CHECK_FALSE(is_pair_named_by_ideal(seen({"windage"}, 20.0, {9.0, 9.0})).has_value());
+  CHECK_FALSE(is_pair_named_by_ideal(seen({"windage", "rim_heat"}, 20.0, {})).has_value());
 }
