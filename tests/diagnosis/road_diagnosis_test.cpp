@@ -125,3 +125,21 @@ TEST_CASE("real trips against a constant coefficient", "[slow]") {
   }
   CHECK(found.probability.at("none") < 0.5);
 }
+
+TEST_CASE("half of the real trips gives the same cause, or says that it cannot tell", "[slow]") {
+  const std::string path = find_trips();
+  if (path.empty()) {
+    WARN("skipped: no measured data; ROLLRIG_MEASURED_DATA names their folder");
+    return;
+  }
+  const measurements::MeasurementSet all = measurements::read_measurement_set(path);
+  for (const std::size_t first : {0U, 1U}) {
+    measurements::MeasurementSet half = all;
+    half.runs.clear();
+    for (std::size_t i = first; i < all.runs.size(); i += 2) half.runs.push_back(all.runs[i]);
+    const Diagnosis found = diagnosis::diagnose(half, {});
+    INFO(diagnosis::format_summary(found));
+    if (found.verdict == Verdict::kExplained) CHECK(names(found, "tire_temperature"));
+    CHECK(found.verdict != Verdict::kUnexplained);
+  }
+}
