@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,14 +51,15 @@ struct StudySettings {
 /// A hypothesis that was fitted to the set, and how well it predicts the set.
 struct Candidate {
   Fit fit;
-  Amplitudes amplitudes;         // of the discrepancy, after the measurement
-  Amplitudes signature;          // rms by channel of what it changes against the null's fit, in noise floors
-  Amplitudes whole;              // the same against its own fit without its terms
-  double log_evidence = 0.0;     // with the discrepancy as small as model error
-  double log_discrepancy = 0.0;  // with a free discrepancy on top
-  double probability = 0.0;      // with the small discrepancy
-  double of_law_error = 0.0;     // part of it that came from hypotheses with one effect more, whose further effect may
-                                 // be an error of these effects' laws
+  Amplitudes amplitudes;            // of the discrepancy, after the measurement
+  Amplitudes signature;             // rms by channel of what it changes against the null's fit, in noise floors
+  Amplitudes whole;                 // the same against its own fit without its terms
+  double log_evidence = 0.0;        // with the discrepancy as small as model error
+  std::optional<double> log_loose;  // part of it: where the laws of all terms are loose; none if not found
+  double log_discrepancy = 0.0;     // with a free discrepancy on top
+  double probability = 0.0;         // with the small discrepancy
+  double of_law_error = 0.0;  // part of it that came from hypotheses with one effect more, whose further effect may
+                              // be an error of these effects' laws
   double discrepancy_probability = 0.0;
 
   double posterior() const { return probability + discrepancy_probability; }

@@ -36,14 +36,20 @@ struct ModelError {
 
 namespace thresholds {
 
+// The law of an effect may be loose (comparison/law_errors.h): by how much, and how likely that is. Assumed: 10 % of
+// what the effect changes; of the laws of an independent generator, those that bend otherwise gain 16 to 45 nats by it.
+constexpr double kLooseLawShare = 0.1;
+constexpr double kLooseLaw = 0.1;
+
 // An effect fitted beside another may be an error of the other's law: odds of that where it gains next to nothing, and
-// how they fall with what it gains beside loose laws (comparison/law_errors.h) and with the relative error of the law
-// that would gain as much. Assumed: the likeliest of a few values for 95 second effects of a seventh mixed set. There,
-// of those that gained 5 nats or more as an error below 10 % would, 7 of 8 that acted kept at least 93 % of their gain
-// beside loose laws; 5 of 6 that did not act, nor looked like the one that did, kept 17 to 80 %.
+// how they fall with what it gains beside loose laws and with the relative error of the law that would gain as much.
+// Assumed: the likeliest of a few values for 95 second effects of the mixed set 2026120101. Of those that gained 5 nats
+// or more with a relative error below 10 %, 8 acted, and 7 of these kept at least 93 % of the gain beside a loose law.
+// 6 neither acted nor resembled an effect that acts, and 5 of these kept 17 to 80 %.
 constexpr double kLawErrorOdds = 1.5;
 constexpr double kLawError_nats = 6.0;
-constexpr double kLawErrorShare = 0.2;
+constexpr double kLawErrorShare = 0.15;
+constexpr double kDecides = 1e-4;  // Assumed: a smaller probability decides nothing, wherever it goes
 constexpr double kExactLaw = 0.3;  // Assumed: that a law is better than the shares of model error say
 
 // Screening and refits.

@@ -92,16 +92,30 @@ void Evaluator::weigh(Candidate& candidate) const {
   candidate.log_discrepancy = log_sum_exp(logs) - std::log(static_cast<double>(logs.size()));
 }
 
-double Evaluator::weigh_with_loose_laws(const Candidate& candidate, const std::vector<const Term*>& terms) const {
-  const Fit loose = loosen_laws(study_, candidate.fit, terms);
+std::optional<double> Evaluator::weigh_with_loose_laws(const Candidate& candidate,
+                                                       const std::vector<const Term*>& terms) const {
+  const std::optional<Fit> loose = loosen_laws(study_, candidate.fit, terms);
+  if (!loose.has_value()) return std::nullopt;
   const ModelError& error = study_.settings.model_error;
   std::vector<AmplitudePrior> small;
   for (const double amplitude : expect_model_error(error, candidate)) {
     small.push_back(law_amplitude(error.baseline_floors, amplitude));
   }
-  const Evidence of_time(study_.discrepancy, loose);
-  const Evidence repeated(of_conditions_, loose);
+  const Evidence of_time(study_.discrepancy, *loose);
+  const Evidence repeated(of_conditions_, *loose);
   return log_sum_exp({of_time.integrate(small).log_value, repeated.integrate(small).log_value}) - std::log(2.0);
+}
+
+/// The laws of its terms are as the catalog has them, or all of them are loose. An unknown effect has no law that could
+/// be wrong.
+void Evaluator::admit_loose_laws(Candidate& candidate) const {
+  if (candidate.fit.hypothesis.has_unknown()) return;
+  std::vector<const Term*> terms;
+  for (const SignedTerm& one : candidate.fit.hypothesis.terms) terms.push_back(one.term);
+  candidate.log_loose = weigh_with_loose_laws(candidate, terms);
+  if (!candidate.log_loose.has_value()) return;
+  candidate.log_evidence = log_sum_exp({std::log(1.0 - thresholds::kLooseLaw) + candidate.log_evidence,
+                                        std::log(thresholds::kLooseLaw) + *candidate.log_loose});
 }
 
 /// One fit under given model error; weighed under the error in proportion to what it changes.
@@ -178,7 +192,9 @@ std::vector<Candidate> Evaluator::refit_all(const Candidate& from, const std::ve
   const auto finish = [&](std::size_t i) {
     const bool is_hopeless = gain_of(candidates[i]) < far_behind;
     const bool is_faint = candidates[i].log_evidence < study_.null.log_evidence + thresholds::kWorthFinishing_nats;
-    if (!is_hopeless && !is_faint) candidates[i] = fit_to_end(model_of(i), candidates[i].fit);
+    if (is_hopeless || is_faint) return;
+    candidates[i] = fit_to_end(model_of(i), candidates[i].fit);
+    if (std::isfinite(candidates[i].log_evidence)) admit_loose_laws(candidates[i]);
   };
   parallel_for(chosen.size(), study_.settings.threads, finish,
                [&](double share) { stages.advance(kFirstShare + (1.0 - kFirstShare) * share); });

@@ -15,11 +15,13 @@ class Evaluator {
   /// Every chosen term on top of `from`: a few steps each, and those that come near the best to the end.
   std::vector<Candidate> refit_all(const Candidate& from, const std::vector<Screened>& chosen) const;
 
-  /// Log evidence of a candidate where the laws of some of its terms may be wrong (law_errors.h).
-  double weigh_with_loose_laws(const Candidate& candidate, const std::vector<const Term*>& terms) const;
+  /// Log evidence of a candidate where the laws of some of its terms are loose (law_errors.h), the discrepancy as small
+  /// as model error; nothing where that cannot be found.
+  std::optional<double> weigh_with_loose_laws(const Candidate& candidate, const std::vector<const Term*>& terms) const;
 
  private:
   void weigh(Candidate& candidate) const;
+  void admit_loose_laws(Candidate& candidate) const;
   Candidate fit_once(const Model& model, const RefitStart& start) const;
   Candidate fit_to_end(const Model& model, const Fit& start) const;
 

@@ -8,7 +8,6 @@ namespace rollrig::diagnosis {
 namespace {
 
 constexpr Eigen::Index kLawForms = 6;
-constexpr double kLooseness = 0.1;
 
 /// The fit's unknowns without those of one term, for `without`.
 Eigen::VectorXd leave_out_own(const Model& with, const Model& without, const Fit& fit, const Term& term) {
@@ -56,17 +55,18 @@ Eigen::MatrixXd find_forms(const PreparedSet& set, const Series& series) {
 
 }  // namespace
 
-Fit loosen_laws(const Study& study, const Fit& fit, const std::vector<const Term*>& terms) {
+std::optional<Fit> loosen_laws(const Study& study, const Fit& fit, const std::vector<const Term*>& terms) {
   const PreparedSet& set = study.set;
   const Eigen::Index of_term = kLawForms * to_index(set.channels().size());
   RowMatrix columns = RowMatrix::Zero(to_index(set.residual_count()), of_term * to_index(terms.size()));
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const std::optional<Eigen::VectorXd> change = find_change(study, fit, *terms[t]);
-    if (!change.has_value()) continue;
+    if (!change.has_value()) return std::nullopt;
+    const double share = std::max(thresholds::kLooseLawShare, terms[t]->info().law_error.law_share);
     for (const Series& series : set.series()) {
-      const Eigen::VectorXd of_series = series.rows_of(*change);
+      const Eigen::VectorXd wrong = share * series.rows_of(*change);
       const Eigen::Index first = to_index(t) * of_term + kLawForms * to_index(series.channel);
-      series.rows_of(columns).middleCols(first, kLawForms) = kLooseness * (of_series.asDiagonal() * find_forms(set, series));
+      series.rows_of(columns).middleCols(first, kLawForms) = wrong.asDiagonal() * find_forms(set, series);
     }
   }
   whiten(set, columns);

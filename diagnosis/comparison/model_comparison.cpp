@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "diagnosis/comparison/evaluator.h"
@@ -187,18 +188,21 @@ Candidate* find_nearest_smaller(Comparison& comparison, const Candidate& larger)
   return nearest;
 }
 
-/// What a hypothesis with one effect more gains over `smaller` where the laws of the effects of `smaller` are loose.
-double calc_gain_beside_loose_laws(const Evaluator& evaluator, const Candidate& larger, const Candidate& smaller) {
+/// What a hypothesis with one effect more gains over `smaller` where the laws of the effects of `smaller` are loose;
+/// nothing where that cannot be found.
+std::optional<double> calc_gain_beside_loose_laws(const Evaluator& evaluator, const Candidate& larger,
+                                                  const Candidate& smaller) {
   std::vector<const Term*> common;
   for (const SignedTerm& one : larger.fit.hypothesis.terms) {
     if (smaller.fit.hypothesis.contains(*one.term)) common.push_back(one.term);
   }
-  return evaluator.weigh_with_loose_laws(larger, common) - evaluator.weigh_with_loose_laws(smaller, common);
+  if (!smaller.log_loose.has_value()) return std::nullopt;
+  const std::optional<double> larger_loose = evaluator.weigh_with_loose_laws(larger, common);
+  return larger_loose.has_value() ? std::optional(*larger_loose - *smaller.log_loose) : std::nullopt;
 }
 
 /// Moves to hypotheses with one effect less what their last effect may be an error of their law.
 void weigh_law_errors(const Study& study, const Evaluator& evaluator, Comparison& comparison) {
-  constexpr double kDecides = 1e-4;  // Assumed: a smaller probability decides nothing, wherever it goes
   for (std::size_t terms = kMostTerms; terms > 1; --terms) {
     for (Candidate& larger : comparison.candidates) {
       if (larger.fit.hypothesis.terms.size() != terms || larger.fit.hypothesis.has_unknown()) continue;
@@ -207,8 +211,8 @@ void weigh_law_errors(const Study& study, const Evaluator& evaluator, Comparison
       SecondGain gain;
       gain.nats = gain.beside_loose_laws_nats = larger.log_evidence - smaller->log_evidence;
       gain.of_others_nats = smaller->log_evidence - study.null.log_evidence;
-      if (larger.probability >= kDecides) {
-        gain.beside_loose_laws_nats = calc_gain_beside_loose_laws(evaluator, larger, *smaller);
+      if (larger.probability >= thresholds::kDecides) {
+        gain.beside_loose_laws_nats = calc_gain_beside_loose_laws(evaluator, larger, *smaller).value_or(gain.nats);
       }
       const double law_error = calc_law_error(gain);
       const double moved = law_error * larger.probability;

@@ -42,7 +42,7 @@ struct SecondGain {
 };
 
 /// Probability that an effect fitted beside others is an error of their laws and does not act.
-/// Equation  P = o/(1 + o), o = 1.5 exp(-((g_l/6)^2 + (s/0.2)^2)/2), s = sqrt(g/G)
+/// Equation  P = o/(1 + o), o = 1.5 exp(-((g_l/6)^2 + (s/0.15)^2)/2), s = sqrt(g/G)
 /// Symbols   g, g_l >= 0 gain by the effect and gain by it beside loose laws, nats (below 0: as 0); G >= 1 that of the
 ///           others, nats (below 1: as 1); s the relative error of the others' laws that would gain g: a change of the
 ///           readings by a share s gains the share s^2 in squares

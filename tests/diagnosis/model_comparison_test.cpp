@@ -75,7 +75,7 @@ TEST_CASE("a second effect that gains much acts, one that gains little may be an
   }
 }
 
-TEST_CASE("a second effect whose gain an error of the first one's law makes as well hardly acts", "[fast]") {
+TEST_CASE("a second effect that gains nothing beside a loose law probably does not act", "[fast]") {
   constexpr double kFirst_nats = 5000.0;
   const double kept = calc_law_error({15.0, 14.0, kFirst_nats});
   const double lost = calc_law_error({15.0, 1.0, kFirst_nats});

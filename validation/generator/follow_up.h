@@ -32,7 +32,7 @@ std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress
 Files make_follow_up(const std::string& set, const std::string& number, const Json& truth,
                      const std::string& plan_folder);
 
-/// What the ideal observer makes of these files; without a folder, of the case as it is.
+/// Upper bound of a case with the runs of the plan in `plan_folder`; where that is empty, of the case alone.
 /// Errors  InputError: as write_follow_up()
 UpperBound find_upper_bound_after(const std::string& set, const std::string& number, const Json& truth,
                                   const std::string& plan_folder);

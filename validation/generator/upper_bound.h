@@ -21,8 +21,8 @@ struct UpperBound {
   double d_prime = 0.0;
   std::map<std::string, double> log_bayes_factors;  // expected, against each other effect that it could be
 
-  /// Whether the observer sees that something acts, and tells it from all else.
-  bool is_named() const { return d_prime >= kDetectable && twins().empty(); }
+  /// Whether the observer sees that something acts, and tells it from all else. Never of an effect outside the catalog.
+  bool is_separable() const { return d_prime >= kDetectable && !log_bayes_factors.empty() && twins().empty(); }
   /// Effects that the data do not tell from the truth.
   std::vector<std::string> twins() const;
 };

@@ -84,19 +84,27 @@ ProposedTest draw_test(const MeasurementSet& set, const diagnosis::TestBudget& b
       possible[static_cast<std::size_t>(random.uniform() * static_cast<double>(possible.size()))]);
 }
 
-/// The tests of the campaign for the machine and tire of a set that can be done with it, in their order.
-std::vector<ProposedTest> list_campaign(const MeasurementSet& set, double hours,
-                                        const std::vector<std::string>& impossible) {
+/// The campaign for the machine and tire of a set; none where no test fits into the hours.
+std::vector<diagnosis::PlannedTest> plan_campaign_for(const MeasurementSet& set, double hours) {
   diagnosis::CampaignInput input;
   input.rig = set.rig.has_value() ? set.rig->path : set.kind->word;
   input.tire = set.tire.path;
   if (set.vehicle.has_value()) input.vehicle = set.vehicle->path;
   input.hours = hours;
   input.threads = 1;
-  const diagnosis::PlannedCampaign campaign = diagnosis::plan_campaign(input);
+  try {
+    return diagnosis::plan_campaign(input).tests;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+/// The tests of the campaign that can be done with a set, in their order.
+std::vector<ProposedTest> list_campaign(const MeasurementSet& set, double hours,
+                                        const std::vector<std::string>& impossible) {
   const std::vector<diagnosis::PlannedTest> menu = make_test_menu(diagnosis::PreparedSet(set));
   std::vector<ProposedTest> tests;
-  for (const diagnosis::PlannedTest& planned : campaign.tests) {
+  for (const diagnosis::PlannedTest& planned : plan_campaign_for(set, hours)) {
     const auto same = std::find_if(menu.begin(), menu.end(), [&](const auto& one) { return one.id == planned.id; });
     const bool is_possible =
         same != menu.end() && std::find(impossible.begin(), impossible.end(), planned.id) == impossible.end();
@@ -113,7 +121,8 @@ void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
   const MeasurementSet first = measurements::read_measurement_set(folder);
   loop.kind = first.kind->word;
   const std::vector<std::string> impossible = list_impossible(first);
-  RandomStream random(order.seed, "loop/" + number);
+  RandomStream random(order.seed, "loop/" + number);  // of failures
+  RandomStream draws(order.seed, "loop/" + number + "/tests");
   diagnosis::LoopLedger& ledger = loop.ledger;
   ledger.set = number;
   ledger.hours = order.hours;
@@ -123,7 +132,7 @@ void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
   const std::vector<ProposedTest> campaign =
       order.tests == LoopTests::kFixed ? list_campaign(first, order.hours, impossible) : std::vector<ProposedTest>{};
   const auto choose_test = [&](const diagnosis::Diagnosis& found, const diagnosis::TestBudget& budget) {
-    if (order.tests == LoopTests::kDrawn) return draw_test(first, budget, random);
+    if (order.tests == LoopTests::kDrawn) return draw_test(first, budget, draws);
     if (order.tests == LoopTests::kProposed) return found.plan.value_or(ProposedTest{});
     const std::size_t next = ledger.tests.size();
     return next < campaign.size() && campaign[next].hours <= budget.hours ? campaign[next] : ProposedTest{};
@@ -137,8 +146,8 @@ void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
     loop.slowest_step_s =
         std::max(loop.slowest_step_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     ledger.answers.push_back(diagnosis::make_answer(ledger, found));
-    if (order.with_ideal) {
-      loop.ideal.push_back(generator::find_upper_bound_after(order.set, number, truth, plan).is_named());
+    if (order.with_ideal && !loop.truth.effects.empty()) {
+      loop.separable.push_back(generator::find_upper_bound_after(order.set, number, truth, plan).is_separable());
     }
     if (diagnosis::is_settled(ledger.answers.back())) {
       ledger.state = LoopState::kNamed;
@@ -186,9 +195,9 @@ bool LoopOfCase::is_right_by(double hours) const {
   return last != nullptr && names_truth(*last);
 }
 
-bool LoopOfCase::is_named_by_ideal_by(double hours) const {
-  for (std::size_t i = 0; i < ideal.size(); ++i) {
-    if (ideal[i] && ledger.answers[i].hours <= hours) return true;
+bool LoopOfCase::is_separable_by(double hours) const {
+  for (std::size_t i = 0; i < separable.size(); ++i) {
+    if (separable[i] && ledger.answers[i].hours <= hours) return true;
   }
   return false;
 }

@@ -21,7 +21,7 @@ struct LoopOrder {
   double hours = 8.0;
   double failing_share = 0.05;  // probability that a test fails; its hours count as used
   LoopTests tests = LoopTests::kProposed;
-  bool with_ideal = false;  // also what the ideal observer makes of the same tests
+  bool with_ideal = false;  // also what an ideal observer makes of the same tests
   std::uint64_t seed = 1;   // of failures and of drawn tests
   int threads = 0;
   std::function<void(std::size_t done, std::size_t of)> progress = {};
@@ -32,7 +32,7 @@ struct LoopOfCase {
   Truth truth;
   std::string kind;  // of its machine
   diagnosis::LoopLedger ledger;
-  std::vector<bool> ideal;  // whether the ideal observer names the truth, beside each answer; empty if not asked for
+  std::vector<bool> separable;  // by an ideal observer, beside each answer; empty if not asked for, or without effect
   double slowest_step_s = 0.0;
   std::string failure;  // why the loop ended with an error; else empty
 
@@ -42,13 +42,14 @@ struct LoopOfCase {
   bool is_right() const;
   /// Whether the last answer within these hours of the machine named the true effects and no other.
   bool is_right_by(double hours) const;
-  /// Whether the ideal observer named them within these hours.
-  bool is_named_by_ideal_by(double hours) const;
+  /// Whether an ideal observer could separate them from all else within these hours.
+  bool is_separable_by(double hours) const;
 };
 
 /// Runs the loop on every case: diagnosis, then the proposed test, simulated by the generator for the same specimen in
 /// a new session, and so on until a cause is named or no test is left that fits into the hours and would tell more (the
-/// state is then kNothingToTest). A loop with an order of tests of its own ends where these do. Only the generator uses
+/// state is then kNothingToTest). With
+/// LoopTests::kFixed, a loop also ends after the last test of the campaign. Only the generator uses
 /// the truth, and the score after a loop has ended. The result depends on set, truth and order alone.
 /// Errors  InputError: as read_truths()
 /// Checked tests/validation/loop_cases_test.cpp

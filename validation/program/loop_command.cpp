@@ -50,7 +50,7 @@ std::string count(const std::vector<const LoopOfCase*>& group, const std::functi
 
 /// A row for each kind of machine and case.
 Table make_loop_table(const LoopsByKind& groups, double hours) {
-  Table table{"Named at 95 %, alone", {"cases", "of"}, {}};
+  Table table{"Loops that name the cause", {"cases", "of"}, {}};
   for (const double time_h : list_times_h(hours)) table.columns.push_back(fmt::format("right {:g} h", time_h));
   table.columns.insert(table.columns.end(), {"wrong", "mean h"});
   for (const auto& [name, group] : groups) {
@@ -67,14 +67,15 @@ Table make_loop_table(const LoopsByKind& groups, double hours) {
   return table;
 }
 
-/// Likewise of the ideal observer.
+/// Likewise of an ideal observer; cases without effect have no row.
 Table make_ideal_table(const LoopsByKind& groups, double hours) {
-  Table table{"What an ideal observer makes of the same tests", {"cases", "of"}, {}};
-  for (const double time_h : list_times_h(hours)) table.columns.push_back(fmt::format("named {:g} h", time_h));
+  Table table{"What an ideal observer could separate with the same tests", {"cases", "of"}, {}};
+  for (const double time_h : list_times_h(hours)) table.columns.push_back(fmt::format("by {:g} h", time_h));
   for (const auto& [name, group] : groups) {
+    if (group.front()->truth.effects.empty()) continue;
     std::vector<std::string> row{name, fmt::format("{}", group.size())};
     for (const double time_h : list_times_h(hours)) {
-      row.push_back(count(group, [&](const LoopOfCase& one) { return one.is_named_by_ideal_by(time_h); }));
+      row.push_back(count(group, [&](const LoopOfCase& one) { return one.is_separable_by(time_h); }));
     }
     table.rows.push_back(std::move(row));
   }
@@ -87,7 +88,7 @@ Json make_loop_json(const LoopOfCase& loop) {
           {"kind", kind_of_case(loop)},
           {"right", loop.is_right()},
           {"failure", loop.failure},
-          {"ideal", loop.ideal},
+          {"separable", loop.separable},
           {"slowest_step_s", loop.slowest_step_s},
           {"loop", diagnosis::make_ledger_json(loop.ledger)}};
 }
@@ -96,6 +97,7 @@ LoopTests find_loop_tests(const std::string& name) {
   const auto at = std::find(kLoopTestsNames.begin(), kLoopTestsNames.end(), name);
   if (at == kLoopTestsNames.end()) {
     InputProblem problem = unknown_name("choice of tests", name, kLoopTestsNames);
+    problem.file = "command line";
     problem.key = "--tests";
     throw InputError(problem);
   }
@@ -106,10 +108,11 @@ int loop_command(const LoopCommandOptions& options) {
   if (!(options.failing_percent >= 0.0 && options.failing_percent <= 100.0)) {
     throw cli::usage_error("no share of tests", "--failing", fmt::format("{:g}", options.failing_percent), "0 to 100");
   }
+  const LoopTests tests = find_loop_tests(options.tests);
   if (!options.json.empty()) require_writable(options.json);
   LoopOrder order = options.order;
   order.failing_share = options.failing_percent / 100.0;
-  order.tests = find_loop_tests(options.tests);
+  order.tests = tests;
   const std::vector<LoopOfCase> loops = [&] {
     cli::ProgressLine progress("loop", options.quiet);
     order.progress = [&progress](std::size_t done, std::size_t of) {
@@ -118,7 +121,7 @@ int loop_command(const LoopCommandOptions& options) {
     return loop_cases(order);
   }();
   if (!options.json.empty()) {
-    const Json json = {{"format", "rollrig-loops/1"},
+    const Json json = {{"format", "rollrig-loops/2"},
                        {"hours", order.hours},
                        {"seed", order.seed},
                        {"tests", options.tests},

@@ -112,7 +112,8 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
   figures.push_back(
       at_least(0.90, make_share("pairs_identifiable", "  of those that can be told", identifiable_pairs, is_named)));
   const Cases of_ideal = only(pairs, [](const Case& one) { return is_pair_named_by_ideal(one).value_or(false); });
-  figures.push_back(at_least(0.90, make_share("pairs_of_ideal", "  of those an ideal names", of_ideal, is_named)));
+  figures.push_back(
+      at_least(0.90, make_share("pairs_of_ideal", "  of those an ideal observer names", of_ideal, is_named)));
 }
 
 /// Of three effects at once: in how many cases all are named, and in how many of the answers all that is named acts.

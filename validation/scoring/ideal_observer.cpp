@@ -29,12 +29,12 @@ std::optional<double> find_chance_of_pair(const Case& one, double detectable_d_p
 std::optional<bool> is_pair_named_by_ideal(const Case& one) {
   if (!one.is_pair() || one.log_bayes_factors.empty()) return std::nullopt;
   const diagnosis::ComparisonPriors priors;
-  const auto effects = static_cast<double>(one.log_bayes_factors.size());  // a pair is compared with all of them
-  const double prior_odds = 2.0 * priors.pairs / ((effects - 1.0) * priors.singles);
+  // A pair is compared with all effects that the generator has for the case.
+  const double others = std::max(1.0, static_cast<double>(one.log_bayes_factors.size()) - 1.0);
+  const double prior_odds = 2.0 * priors.pairs / (others * priors.singles);
   double against = 0.0;
   for (const double nats : one.log_bayes_factors) {
-    const double least = std::max(0.0, nats);
-    against += std::exp(-least) * std::sqrt(1.0 + 2.0 * least) / prior_odds;
+    against += std::exp(-nats) * std::sqrt(1.0 + 2.0 * nats) / prior_odds;
   }
   return against < 1.0;
 }

@@ -67,10 +67,12 @@ std::optional<double> find_chance_of_pair(const Case& one, double detectable_d_p
 /// Whether an ideal observer who starts from the probabilities of the diagnosis names a pair: it is then likelier than
 /// all single effects together. None without an upper bound that compares it with them.
 /// Equation  sum_r 1/o_r < 1,  o_r = (pi_2/pi_1) exp(L_r) / sqrt(1 + 2 L_r)
-/// Symbols   L_r expected log Bayes factor against the single effect r, nats; pi_2, pi_1 probability of each pair and of
-///           each single effect before the measurement
-/// Validity  the root: a further size that is normal before the measurement, of which the data show sqrt(2 L_r)
-///           standard deviations. Pairs of other effects are not compared, so that the observer names too many
+/// Symbols   L_r >= 0 expected log Bayes factor against the single effect r at the true sizes, nats; pi_2, pi_1
+///           probability of each pair and of each single effect before the measurement
+/// Validity  the root is the Occam factor of the second size: its prior is normal, the true size is one standard
+///           deviation, and d' = sqrt(2 L_r). Pairs of other effects are not compared, so the observer names too many
+/// Source    docs/validation.md, "Upper bound"
+/// Checked   tests/validation/scoring/ideal_observer_test.cpp
 std::optional<bool> is_pair_named_by_ideal(const Case& one);
 
 /// Mean chance; none where one of the cases has none, or there is no case.
