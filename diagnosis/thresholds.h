@@ -37,7 +37,7 @@ struct ModelError {
 namespace thresholds {
 
 // The law of an effect may be loose (comparison/law_errors.h): by how much, and how likely that is. Assumed: 10 % of
-// what the effect changes; of the laws of an independent generator, those that bend otherwise gain 16 to 45 nats by it.
+// what the effect changes. Where the cavity of an independent generator bends otherwise, such laws gain 25 to 45 nats.
 constexpr double kLooseLawShare = 0.1;
 constexpr double kLooseLaw = 0.1;
 

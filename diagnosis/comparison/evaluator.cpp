@@ -103,7 +103,9 @@ std::optional<double> Evaluator::weigh_with_loose_laws(const Candidate& candidat
   }
   const Evidence of_time(study_.discrepancy, *loose);
   const Evidence repeated(of_conditions_, *loose);
-  return log_sum_exp({of_time.integrate(small).log_value, repeated.integrate(small).log_value}) - std::log(2.0);
+  const double log_value =
+      log_sum_exp({of_time.integrate(small).log_value, repeated.integrate(small).log_value}) - std::log(2.0);
+  return std::isfinite(log_value) ? std::optional(log_value) : std::nullopt;
 }
 
 /// The laws of its terms are as the catalog has them, or all of them are loose. An unknown effect has no law that could

@@ -46,6 +46,7 @@ struct SecondGain {
 /// Symbols   g, g_l >= 0 gain by the effect and gain by it beside loose laws, nats (below 0: as 0); G >= 1 that of the
 ///           others, nats (below 1: as 1); s the relative error of the others' laws that would gain g: a change of the
 ///           readings by a share s gains the share s^2 in squares
+/// Validity  where g_l was not found, or the pair has a probability below 1e-4, g takes its place
 /// Source    Assumed: thresholds.h, kLawErrorOdds
 /// Checked   tests/diagnosis/model_comparison_test.cpp
 double calc_law_error(const SecondGain& gain);

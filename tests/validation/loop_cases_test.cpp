@@ -1,4 +1,5 @@
 // Loops of tests on cases whose truth is known, the generator as the rig.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -52,5 +53,43 @@ TEST_CASE("where every test fails, hours go and nothing is learned", "[slow]") {
     for (const json& answer : answers) CHECK(answer["probability"] == answers[0]["probability"]);
     REQUIRE(!one["loop"]["tests"].empty());
     for (const json& test : one["loop"]["tests"]) CHECK(test["state"] == "failed");
+  }
+}
+
+TEST_CASE("a fixed campaign does not depend on what was measured, and an ideal observer is asked for cases with effect",
+          "[slow]") {
+  const tests::TemporaryFolder folder;
+  const json loops = loop_cases(folder, "--singles 1 --none 1", " --hours 1.6 --failing 0 --tests fixed --ideal");
+  REQUIRE(loops["cases"].size() == 2);
+  CHECK(loops["tests"] == "fixed");
+  std::vector<std::vector<std::string>> done;
+  for (const json& one : loops["cases"]) {
+    INFO(one.dump(1));
+    CHECK(one["failure"] == "");
+    CHECK(one["separable"].size() == (one["truth"].empty() ? 0 : one["loop"]["answers"].size()));
+    done.emplace_back();
+    for (const json& test : one["loop"]["tests"]) done.back().push_back(test["id"]);
+  }
+  REQUIRE(!done.front().empty());
+  const std::size_t both = std::min(done[0].size(), done[1].size());  // a loop may end earlier: its cause is named
+  done[0].resize(both);
+  done[1].resize(both);
+  CHECK(done[0] == done[1]);
+}
+
+TEST_CASE("an unknown choice of tests is told, with those that there are", "[fast]") {
+  const tests::TemporaryFolder folder;
+  const auto looped = run_validation("loop set --tests best --json loops.json", folder.path());
+  CHECK(looped.status == 2);
+  CHECK_THAT(looped.err, Catch::Contains("'best'") && Catch::Contains("proposed, drawn, fixed"));
+}
+
+TEST_CASE("hours that no machine has are refused before anything is simulated", "[fast]") {
+  const tests::TemporaryFolder folder;
+  for (const std::string hours : {"-1", "0", "nan", "inf", "1e300"}) {
+    INFO(hours);
+    const auto looped = run_validation("loop set --tests fixed --json loops.json --hours " + hours, folder.path());
+    CHECK(looped.status == 2);
+    CHECK_THAT(looped.err, Catch::Contains("--hours"));
   }
 }

@@ -84,7 +84,7 @@ ProposedTest draw_test(const MeasurementSet& set, const diagnosis::TestBudget& b
       possible[static_cast<std::size_t>(random.uniform() * static_cast<double>(possible.size()))]);
 }
 
-/// The campaign for the machine and tire of a set; none where no test fits into the hours.
+/// The campaign for the machine and tire of a set.
 std::vector<diagnosis::PlannedTest> plan_campaign_for(const MeasurementSet& set, double hours) {
   diagnosis::CampaignInput input;
   input.rig = set.rig.has_value() ? set.rig->path : set.kind->word;
@@ -92,11 +92,7 @@ std::vector<diagnosis::PlannedTest> plan_campaign_for(const MeasurementSet& set,
   if (set.vehicle.has_value()) input.vehicle = set.vehicle->path;
   input.hours = hours;
   input.threads = 1;
-  try {
-    return diagnosis::plan_campaign(input).tests;
-  } catch (const InputError&) {
-    return {};
-  }
+  return diagnosis::plan_campaign(input).tests;
 }
 
 /// The tests of the campaign that can be done with a set, in their order.
@@ -104,6 +100,7 @@ std::vector<ProposedTest> list_campaign(const MeasurementSet& set, double hours,
                                         const std::vector<std::string>& impossible) {
   const std::vector<diagnosis::PlannedTest> menu = make_test_menu(diagnosis::PreparedSet(set));
   std::vector<ProposedTest> tests;
+  if (std::none_of(menu.begin(), menu.end(), [&](const auto& one) { return one.hours <= hours; })) return tests;
   for (const diagnosis::PlannedTest& planned : plan_campaign_for(set, hours)) {
     const auto same = std::find_if(menu.begin(), menu.end(), [&](const auto& one) { return one.id == planned.id; });
     const bool is_possible =
@@ -134,8 +131,10 @@ void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
   const auto choose_test = [&](const diagnosis::Diagnosis& found, const diagnosis::TestBudget& budget) {
     if (order.tests == LoopTests::kDrawn) return draw_test(first, budget, draws);
     if (order.tests == LoopTests::kProposed) return found.plan.value_or(ProposedTest{});
-    const std::size_t next = ledger.tests.size();
-    return next < campaign.size() && campaign[next].hours <= budget.hours ? campaign[next] : ProposedTest{};
+    constexpr double kRounding_h = 1e-6;
+    const std::size_t next = measured.size();  // a test that failed is done again
+    const bool fits = next < campaign.size() && campaign[next].hours <= budget.hours + kRounding_h;
+    return fits ? campaign[next] : ProposedTest{};
   };
   while (true) {
     diagnosis::DiagnosisOptions options;

@@ -46,11 +46,10 @@ struct LoopOfCase {
   bool is_separable_by(double hours) const;
 };
 
-/// Runs the loop on every case: diagnosis, then the proposed test, simulated by the generator for the same specimen in
-/// a new session, and so on until a cause is named or no test is left that fits into the hours and would tell more (the
-/// state is then kNothingToTest). With
-/// LoopTests::kFixed, a loop also ends after the last test of the campaign. Only the generator uses
-/// the truth, and the score after a loop has ended. The result depends on set, truth and order alone.
+/// Runs the loop on every case: diagnosis, then a test, simulated by the generator for the same specimen in a new
+/// session, and so on until a cause is named or no test is left that fits into the hours and would tell more (the state
+/// is then kNothingToTest). With LoopTests::kFixed, a loop also ends after the last test of the campaign. Only the
+/// generator uses the truth, and the score after a loop has ended. The result depends on set, truth and order alone.
 /// Errors  InputError: as read_truths()
 /// Checked tests/validation/loop_cases_test.cpp
 std::vector<LoopOfCase> loop_cases(const LoopOrder& order);

@@ -108,6 +108,7 @@ int loop_command(const LoopCommandOptions& options) {
   if (!(options.failing_percent >= 0.0 && options.failing_percent <= 100.0)) {
     throw cli::usage_error("no share of tests", "--failing", fmt::format("{:g}", options.failing_percent), "0 to 100");
   }
+  diagnosis::require_machine_hours(options.order.hours);
   const LoopTests tests = find_loop_tests(options.tests);
   if (!options.json.empty()) require_writable(options.json);
   LoopOrder order = options.order;
