@@ -17,10 +17,7 @@ Eigen::MatrixXd find_features(const PreparedSet& set, const Series& series) {
   const double skim_limit_N = set.kind().skim_limit_N(set.source());
   Eigen::MatrixXd features(to_index(series.size()), kFeatures);
   for (std::size_t k = 0; k < series.size(); ++k) {
-    const auto mean = [&](const Quantity& quantity) {
-      const std::vector<double>& values = run.measured.column(quantity);
-      return series.mean_over(series.blocks[k], [&](std::size_t row) { return values[row]; });
-    };
+    const auto mean = [&](const Quantity& input) { return find_mean_input(set, series, k, input); };
     const double speed = mean(models::quantities::kSpeed) / 20.0;
     const double load = mean(models::quantities::kLoad) / 5000.0;
     const double skim = mean(models::quantities::kLoad) <= skim_limit_N ? 1.0 : 0.0;

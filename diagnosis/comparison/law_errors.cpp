@@ -39,10 +39,7 @@ Eigen::MatrixXd find_forms(const PreparedSet& set, const Series& series) {
   const auto& tire = set.context().tire.rolling_resistance;
   Eigen::MatrixXd forms(to_index(series.size()), kLawForms);
   for (std::size_t k = 0; k < series.size(); ++k) {
-    const auto mean = [&](const Quantity& quantity) {
-      const std::vector<double>& values = run.measured.column(quantity);
-      return series.mean_over(series.blocks[k], [&](std::size_t row) { return values[row]; });
-    };
+    const auto mean = [&](const Quantity& input) { return find_mean_input(set, series, k, input); };
     const double speed_km_h = 3.6 * mean(models::quantities::kSpeed);
     const double load = mean(models::quantities::kLoad) / tire.reference_load_N;
     forms.row(to_index(k)) << 1.0, (speed_km_h - 80.0) / 40.0, 2.0 * (load - 1.0),

@@ -139,6 +139,11 @@ void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t off
   series_.push_back(std::move(series));
 }
 
+double find_mean_input(const PreparedSet& set, const Series& series, std::size_t block, const Quantity& input) {
+  const std::vector<double>& values = set.runs()[series.run].measured.column(input);
+  return series.mean_over(series.blocks[block], [&](std::size_t row) { return values[row]; });
+}
+
 double sum_squared_floors(const PreparedSet& set, const Eigen::VectorXd& change) {
   double sum = 0.0;
   for (const Series& series : set.series()) {

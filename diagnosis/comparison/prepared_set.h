@@ -101,6 +101,9 @@ class PreparedSet {
   Eigen::VectorXd measured_;
 };
 
+/// Mean over a block of what the run of a series records as an input.
+double find_mean_input(const PreparedSet& set, const Series& series, std::size_t block, const Quantity& input);
+
 /// Sum of the squares of a change of block means, SI units, each in noise floors of its series.
 double sum_squared_floors(const PreparedSet& set, const Eigen::VectorXd& change);
 
