@@ -4,7 +4,6 @@
 #include <spdlog/spdlog.h>
 
 #include <fcntl.h>
-#include <glog/logging.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -193,8 +192,7 @@ void require_utf8(int argc, char** argv) {
 
 int run_program(int argc, char** argv, const std::function<int()>& body) {
   open_closed_streams();
-  std::signal(SIGPIPE, SIG_IGN);           // a reader that has gone costs no files
-  FLAGS_minloglevel = google::GLOG_FATAL;  // ceres' remarks; what they mean is said by rollrig
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone costs no files
   keep_freed_memory();
   install_interrupt_handler();
   set_up_log();

@@ -1,13 +1,13 @@
 #include "diagnosis/comparison/refit.h"
 
 #include <ceres/ceres.h>
-#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "diagnosis/comparison/bounded_step.h"
+#include "estimation/quiet_solver.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -245,7 +245,7 @@ Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& 
   options.max_num_consecutive_invalid_steps = 20;  // each twice, four, eight times ... shorter than the one before
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
-  FLAGS_minloglevel = google::GLOG_FATAL;  // a start that cannot be simulated is an answer, not a mistake
+  estimation::quiet_solver();  // a start that cannot be simulated is an answer, not a mistake
   if (!solve(options, problem, *residuals, model, start, fit)) return fit;
   if (is_held_up_by_range(model, discrepancy, start, fit)) FitWithinRanges(model, discrepancy, start, fit).solve();
   if (!model.simulate(fit.unknowns, start.threads, fit.simulated, nullptr)) {

@@ -2,13 +2,13 @@
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
-#include <glog/logging.h>
 #include <spdlog/spdlog.h>
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/quiet_solver.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {
@@ -68,7 +68,7 @@ std::vector<double> minimize(const DrumResiduals& residuals, const std::vector<d
   solver.max_num_iterations = 300;  // Assumed: enough for guesses that are far off
   solver.function_tolerance = 1e-10;
   solver.logging_type = ceres::SILENT;
-  FLAGS_minloglevel = google::GLOG_FATAL;  // what it says of a step or of the data, an error below says
+  quiet_solver();  // what it says of a step or of the data, an error below says
   FollowIterations follow(progress);
   solver.callbacks.push_back(&follow);
   ceres::Solver::Summary summary;
