@@ -8,8 +8,37 @@
 
 #include "sim/core/interrupt.h"
 
+#ifdef ROLLRIG_THREAD_SANITIZER
+extern "C" void __tsan_acquire(void* order);
+extern "C" void __tsan_release(void* order);
+#endif
+
 namespace rollrig {
 namespace {
+
+#ifdef ROLLRIG_THREAD_SANITIZER
+/// What was done before `release` is done before what follows `acquire`. TBB sees to it; this tells the thread
+/// sanitizer, which does not look into TBB.
+struct Order {
+  void release() { __tsan_release(this); }
+  void acquire() { __tsan_acquire(this); }
+};
+#else
+struct Order {
+  void release() {}
+  void acquire() {}
+};
+#endif
+
+/// One call of the work: after it was handed out, and before all is finished.
+struct Turn {
+  Turn(Order& handed_out, Order& finished_) : finished(finished_) { handed_out.acquire(); }
+  ~Turn() { finished.release(); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+  Order& finished;
+};
 
 /// Whether this thread does the work of a parallel_for.
 thread_local bool is_at_work = false;
@@ -29,7 +58,10 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
                   const std::function<void(double)>& advance) {
   std::mutex mutex;
   std::size_t done = 0;
+  Order handed_out;
+  Order finished;
   const auto work_and_tell = [&](std::size_t i) {
+    const Turn turn(handed_out, finished);
     throw_if_interrupted();
     {
       const AtWork at_work;
@@ -40,12 +72,14 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     advance(static_cast<double>(++done) / static_cast<double>(count));
   };
   const auto share_out = [&] { tbb::parallel_for(std::size_t{0}, count, work_and_tell, tbb::simple_partitioner()); };
+  handed_out.release();
   if (is_at_work && threads != 1) {
     tbb::this_task_arena::isolate(share_out);  // else a thread that waits for its part would begin with another's
-    return;
+  } else {
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    arena.execute(share_out);
   }
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute(share_out);
+  finished.acquire();
 }
 
 }  // namespace rollrig
