@@ -82,6 +82,7 @@ struct ComparisonOptions {
 /// Each adds one subcommand with its options to `app` and sets `action` when that subcommand is called.
 void add_run_command(CLI::App& app, Action& action);
 void add_sweep_command(CLI::App& app, Action& action);
+void add_campaign_command(CLI::App& app, Action& action);
 void add_regress_command(CLI::App& app, Action& action);
 void add_validate_command(CLI::App& app, Action& action);
 void add_list_command(CLI::App& app, Action& action);

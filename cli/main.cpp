@@ -28,8 +28,9 @@ constexpr const char* kFooter =
     "Exit status: 0 done, 1 a regression differs or a set is doubtful,\n"
     "2 input or usage, 3 the run failed, 70 a mistake in rollrig itself,\n"
     "130 stopped by Ctrl-C. With 2, 3, 70 and 130 nothing is written, except\n"
-    "for the points of a sweep that did not fail (3), and of several sets\n"
-    "those that could be diagnosed (2 or 3).\n";
+    "for the points of a sweep that did not fail (3), the items of a\n"
+    "campaign that are done (3, 130), and of several sets those that could\n"
+    "be diagnosed (2 or 3).\n";
 
 /// A command's own examples, below its help.
 void add_examples(const CLI::App& app) {
@@ -38,6 +39,11 @@ void add_examples(const CLI::App& app) {
        "  rollrig run iso_28580 --tire a50\n"
        "  rollrig run warm_up --tire a60 --set speed_km_h=120 --out warm\n"},
       {"sweep", "  rollrig sweep iso_28580 --tire a50 --vary pressure_kPa=210:310:20\n"},
+      {"campaign",
+       "  rollrig campaign new sums iso_28580 --tire a50 --draw-sd tire \\\n"
+       "    --points 1000 --fidelity quasi_static\n"
+       "  rollrig campaign run sums\n"
+       "  rollrig campaign export sums --csv sums.csv\n"},
       {"regress", "  rollrig regress runs\n"},
       {"validate", "  rollrig validate campaign\n"},
       {"describe",
@@ -106,6 +112,7 @@ int make_and_run(int argc, char** argv) {
   Action action;
   add_run_command(app, action);
   add_sweep_command(app, action);
+  add_campaign_command(app, action);
   add_regress_command(app, action);
   add_validate_command(app, action);
   add_list_command(app, action);

@@ -16,6 +16,7 @@ constexpr std::chrono::seconds kQuietOnTerminal{2};
 constexpr std::chrono::milliseconds kBetweenUpdates{200};
 constexpr std::chrono::seconds kQuietInLog{10};
 constexpr std::chrono::seconds kBetweenLines{60};
+constexpr std::chrono::seconds kForPrograms{1};
 
 std::string show_duration(double duration_s) {
   return duration_s < 120.0 ? fmt::format("{:.0f} s", duration_s) : fmt::format("{:.0f} min", duration_s / 60.0);
@@ -23,11 +24,14 @@ std::string show_duration(double duration_s) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(std::string label, bool quiet)
+ProgressLine::ProgressLine(std::string label, bool quiet, ProgressReader reader)
     : label_(std::move(label)),
-      active_(!quiet),
-      terminal_(isatty(STDERR_FILENO) != 0),
-      next_(start_ + (terminal_ ? kQuietOnTerminal : kQuietInLog)) {}
+      active_(!quiet || reader == ProgressReader::kProgram),
+      reader_(reader),
+      terminal_(reader == ProgressReader::kPerson && isatty(STDERR_FILENO) != 0),
+      next_(start_ + (reader == ProgressReader::kProgram ? kForPrograms
+                      : terminal_                        ? kQuietOnTerminal
+                                                         : kQuietInLog)) {}
 
 ProgressLine::~ProgressLine() { clear(); }
 
@@ -40,7 +44,10 @@ void ProgressLine::clear() {
 bool ProgressLine::is_due() {
   last_ = Clock::now();
   if (last_ < next_) return false;
-  next_ = last_ + (terminal_ ? Clock::duration(kBetweenUpdates) : Clock::duration(kBetweenLines));
+  const Clock::duration pause = reader_ == ProgressReader::kProgram ? Clock::duration(kForPrograms)
+                                : terminal_                         ? Clock::duration(kBetweenUpdates)
+                                                                    : Clock::duration(kBetweenLines);
+  next_ = last_ + pause;
   return true;
 }
 
@@ -51,6 +58,12 @@ void ProgressLine::update(double done, const std::string& stage) {
   done_ = done;
   if (done >= 1.0 || !is_due()) return;
   const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();
+  if (reader_ == ProgressReader::kProgram) {
+    if (done > 0.0) {
+      fmt::print(stderr, "{{\"done\":{:.4f},\"seconds_left\":{:.1f}}}\n", done, elapsed_s * (1.0 - done) / done);
+    }
+    return;
+  }
   std::string text = label_;
   if (done > 0.0) {
     text += fmt::format("  {:.0f} %, about {} left", 100.0 * done, show_duration(elapsed_s * (1.0 - done) / done));

@@ -9,11 +9,15 @@
 
 namespace rollrig::cli {
 
+/// Who reads the progress: a person, or a program, which gets a line of JSON each second:
+/// {"done":0.31,"seconds_left":12.3}
+enum class ProgressReader { kPerson, kProgram };
+
 /// Writes to standard error. On a terminal, it updates one line, from 2 s on. Elsewhere, as in the log of a CI job, it
 /// writes a line after 10 s and then one each minute.
 class ProgressLine {
  public:
-  ProgressLine(std::string label, bool quiet);
+  ProgressLine(std::string label, bool quiet, ProgressReader reader = ProgressReader::kPerson);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -35,6 +39,7 @@ class ProgressLine {
 
   std::string label_;
   bool active_;
+  ProgressReader reader_;
   bool terminal_;
   std::size_t shown_ = 0;  // characters on the terminal
   double done_ = 0.0;

@@ -14,6 +14,7 @@
 #include "regress.h"
 #include "result.h"
 #include "run.h"
+#include "run_campaign.h"
 #include "scaffold.h"
 #include "sweep.h"
 #include "version.h"

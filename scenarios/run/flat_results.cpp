@@ -1,7 +1,6 @@
 #include "scenarios/run/flat_results.h"
 
 #include <cctype>
-#include <map>
 #include <set>
 
 namespace rollrig::scenarios {
@@ -35,20 +34,6 @@ Names list_names(const Json& list) {
   return names;
 }
 
-/// Names of every list that are the same in all results.
-std::map<std::string, Names> find_common_names(const std::vector<Json>& results) {
-  std::map<std::string, Names> common;
-  for (const Json& result : results) {
-    for (const auto& [key, value] : result.items()) {
-      if (!value.is_array()) continue;
-      const Names names = list_names(value);
-      const auto [known, is_new] = common.emplace(key, names);
-      if (!is_new && known->second != names) known->second.clear();
-    }
-  }
-  return common;
-}
-
 void add_flat_numbers(const std::string& key, const Json& value, Json& flat) {
   if (value.is_number()) flat[key] = value;
   if (value.is_boolean()) flat[key] = value.get<bool>() ? 1 : 0;
@@ -60,14 +45,25 @@ void add_flat_numbers(const std::string& key, const Json& value, Json& flat) {
   }
 }
 
-Json flatten(const Json& result, const std::map<std::string, Names>& names) {
+}  // namespace
+
+void ResultFlattener::learn_names(const Json& result) {
+  for (const auto& [key, value] : result.items()) {
+    if (!value.is_array()) continue;
+    const Names names = list_names(value);
+    const auto [known, is_new] = names_.emplace(key, names);
+    if (!is_new && known->second != names) known->second.clear();
+  }
+}
+
+Json ResultFlattener::flatten(const Json& result) const {
   Json flat = Json::object();
   for (const auto& [key, value] : result.items()) {
     if (!value.is_structured()) add_flat_numbers(key, value, flat);
   }
   for (const auto& [key, value] : result.items()) {
-    const auto named = names.find(key);
-    if (named == names.end() || named->second.empty()) {
+    const auto named = names_.find(key);
+    if (named == names_.end() || named->second.empty()) {
       if (value.is_structured()) add_flat_numbers(key, value, flat);
       continue;
     }
@@ -76,12 +72,11 @@ Json flatten(const Json& result, const std::map<std::string, Names>& names) {
   return flat;
 }
 
-}  // namespace
-
 std::vector<Json> flatten_results(const std::vector<Json>& results) {
-  const std::map<std::string, Names> names = find_common_names(results);
+  ResultFlattener flattener;
+  for (const Json& result : results) flattener.learn_names(result);
   std::vector<Json> flat;
-  for (const Json& result : results) flat.push_back(flatten(result, names));
+  for (const Json& result : results) flat.push_back(flattener.flatten(result));
   return flat;
 }
 

@@ -1,6 +1,6 @@
 // Includes follow one direction: cli -> api -> report -> diagnosis -> scenarios -> estimation -> measurements -> rigs
-// -> models -> sim/core, and rigs -> sim -> sim/core; validation stands on top of all of it, its generator on
-// sim/core alone.
+// -> models -> sim/core, rigs -> sim -> sim/core, and api -> campaigns -> sim/core. Validation stands on top of all of
+// it, its generator on sim/core alone.
 // Third-party packages stay behind a few files.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -34,6 +34,7 @@ const std::vector<std::string> kOrder{"include/rollrig",
                                       "exports",
                                       "diagnosis",
                                       "report",
+                                      "campaigns",
                                       "api",
                                       "cli",
                                       "validation",
@@ -45,6 +46,7 @@ const std::vector<std::string> kOrder{"include/rollrig",
 /// Includes of lower folders that are wrong nevertheless.
 const std::set<std::pair<std::string, std::string>> kForbidden{{"models", "sim"},
                                                                {"diagnosis", "exports"},
+                                                               {"campaigns", "report"},
                                                                {"report", "exports"},
                                                                {"validation/scoring", "exports"},
                                                                {"validation/scoring", "report"},
@@ -69,6 +71,7 @@ const std::map<std::string, std::set<std::string>> kPackages{
     {"ceres/", {"sim/core/scalar.h", "estimation/tire_fit/fit_solution.cpp", "diagnosis/comparison/refit.cpp"}},
     {"edlib.h", {"sim/core/error.cpp"}},
     {"udunits2.h", {"sim/core/unit_names.cpp"}},
+    {"SQLiteCpp/|sqlite3.h", {"campaigns/store.cpp"}},
     {"tbb/", {"sim/core/parallel.cpp"}},
     {"sha256.h", {"sim/core/file_io.cpp"}},
     {"boost/numeric/odeint", {"validation/generator/recorder.cpp"}},

@@ -1,0 +1,239 @@
+#include "api/campaign_definition.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "api/data.h"
+#include "rollrig/version.h"
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
+#include "sim/core/parse_json.h"
+#include "sim/core/text.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig {
+namespace {
+
+constexpr const char* kCampaignFormat = "rollrig-campaign/1";
+
+/// The members of RunInput by the keys of campaign.json.
+template <class Run, class Visit>
+void visit_run(Run& run, const Visit& visit) {
+  visit("scenario", run.scenario_or_file);
+  visit("tire", run.tire);
+  visit("rig", run.rig);
+  visit("vehicle", run.vehicle);
+  visit("fidelity", run.fidelity);
+  visit("baseline", run.baseline);
+  visit("sensors", run.sensors);
+  visit("set", run.settings);
+}
+
+Json to_json(const campaigns::Factor& factor) {
+  Json json{{"key", factor.key}};
+  switch (factor.kind) {
+    case campaigns::Factor::Kind::kValues:
+      json["values"] = factor.values;
+      break;
+    case campaigns::Factor::Kind::kUniform:
+      json["uniform"] = {factor.first, factor.second};
+      break;
+    case campaigns::Factor::Kind::kNormal:
+      json["normal"] = {factor.first, factor.second};
+      break;
+  }
+  return json;
+}
+
+campaigns::Factor read_factor(const Json& json) {
+  campaigns::Factor factor{json.at("key").get<std::string>()};
+  if (json.contains("values")) {
+    factor.values = json["values"].get<std::vector<std::string>>();
+    return factor;
+  }
+  const bool is_uniform = json.contains("uniform");
+  const Json& numbers = json.at(is_uniform ? "uniform" : "normal");
+  factor.kind = is_uniform ? campaigns::Factor::Kind::kUniform : campaigns::Factor::Kind::kNormal;
+  factor.first = numbers.at(0).get<double>();
+  factor.second = numbers.at(1).get<double>();
+  return factor;
+}
+
+/// Numbers of a file that stand beside their standard uncertainty, as factors.
+void add_uncertain(const ConfigTable& table, const std::string& prefix, std::vector<campaigns::Factor>& factors) {
+  for (const auto& [key, value] : table.entries) {
+    if (const ConfigTable* inner = value.as_table()) add_uncertain(*inner, prefix + key + ".", factors);
+    const double* mean = std::get_if<double>(&value.data);
+    const ConfigValue* beside = table.find(key + "_sd");
+    const double* sd = beside != nullptr ? std::get_if<double>(&beside->data) : nullptr;
+    if (mean == nullptr || sd == nullptr || !(*sd > 0.0)) continue;
+    factors.push_back({prefix + key, campaigns::Factor::Kind::kNormal, {}, *mean, *sd});
+  }
+}
+
+std::vector<campaigns::Factor> list_factors(const RunCampaignInput& input, const scenarios::RunSpec& spec) {
+  std::vector<campaigns::Factor> factors;
+  for (const SweepAxis& axis : input.axes) factors.push_back({axis.key, campaigns::Factor::Kind::kValues, axis.values});
+  for (const std::string& text : input.drawn) factors.push_back(campaigns::read_drawn_factor(text));
+  for (const std::string& name : input.drawn_sd) {
+    const std::vector<std::string> known{"tire", "rig", "vehicle"};
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      InputProblem problem = unknown_name("file", name, known);
+      problem.file = "command line";
+      problem.key = "--draw-sd";
+      throw InputError(problem);
+    }
+    const bool has_file = name == "tire" || (name == "rig" ? spec.scenario->has_rig() : spec.vehicle.has_value());
+    const std::size_t before = factors.size();
+    if (has_file) {
+      const std::string& content = name == "tire"  ? spec.tire.content
+                                   : name == "rig" ? spec.rig.content
+                                                   : spec.vehicle->content;
+      add_uncertain(parse_config(content, name), name + ".", factors);
+    }
+    if (factors.size() > before) continue;
+    throw InputError({fmt::format("the runs have no {} with an uncertainty", name), "command line", 0, "--draw-sd",
+                      name, "a file with numbers that have an _sd beside them", ""});
+  }
+  return factors;
+}
+
+/// The index of a factor; how many there are where it is none.
+std::size_t find_factor(const std::vector<campaigns::Factor>& factors, const std::string& key) {
+  const auto has_key = [&key](const campaigns::Factor& factor) { return factor.key == key; };
+  return static_cast<std::size_t>(std::find_if(factors.begin(), factors.end(), has_key) - factors.begin());
+}
+
+/// Pairs of factors of --draw-sd, which begin at `first_sd`, whose errors the tire file says to be correlated.
+std::vector<campaigns::FactorPair> list_correlated(const std::vector<campaigns::Factor>& factors, std::size_t first_sd,
+                                                   const scenarios::RunSpec& spec) {
+  std::vector<campaigns::FactorPair> pairs;
+  const std::string rig = spec.scenario->has_rig() ? spec.rig.thermal_name() : "";
+  for (const models::CorrelatedPair& pair : models::list_correlated_pairs(spec.tire, rig)) {
+    const std::size_t first = find_factor(factors, pair.first);
+    const std::size_t second = find_factor(factors, pair.second);
+    const bool are_drawn = std::min(first, second) >= first_sd && std::max(first, second) < factors.size();
+    if (are_drawn) pairs.push_back({first, second, pair.correlation});
+  }
+  return pairs;
+}
+
+/// A path as it is found from any folder, the name of an asset as it is.
+void make_absolute(std::string& name) {
+  if (name.find('/') != std::string::npos || fs::path(name).extension() == ".toml") name = fs::absolute(name).string();
+}
+
+CampaignFile hash_file(const std::string& path) {
+  return {fs::absolute(path).string(), calc_sha256(read_text_file(path))};
+}
+
+std::vector<CampaignFile> list_files(const RunInput& run, const scenarios::RunSpec& spec) {
+  std::vector<CampaignFile> files{hash_file(spec.tire.path)};
+  if (spec.scenario->has_rig()) files.push_back(hash_file(spec.rig.path));
+  if (spec.vehicle.has_value()) files.push_back(hash_file(spec.vehicle->path));
+  for (const std::string& path : {run.scenario_or_file, run.sensors}) {
+    if (fs::path(path).is_absolute()) files.push_back(hash_file(path));
+  }
+  return files;
+}
+
+}  // namespace
+
+std::vector<std::string> campaign_designs() { return campaigns::design_names(); }
+
+std::string CampaignDefinition::to_text() const {
+  Json json{{"format", kCampaignFormat}, {"rollrig", version}, {"run", Json::object()}, {"files", Json::array()}};
+  visit_run(run, [&json](const char* key, const auto& value) {
+    if (!value.empty()) json["run"][key] = value;
+  });
+  for (const CampaignFile& file : files) json["files"].push_back({{"path", file.path}, {"sha256", file.sha256}});
+  json["design"] = design.name;
+  if (design.points > 0) json["points"] = design.points;
+  json["seed"] = design.seed;
+  json["factors"] = make_list(design.factors, &to_json);
+  for (const campaigns::FactorPair& pair : design.correlated) {
+    json["correlated"].push_back({{"factors", {design.factors[pair.first].key, design.factors[pair.second].key}},
+                                  {"correlation", pair.correlation}});
+  }
+  return rollrig::to_text(json) + "\n";
+}
+
+CampaignDefinition CampaignDefinition::read(const std::string& content, const std::string& path) {
+  const Json json = parse_json(content, path);
+  CampaignDefinition definition;
+  try {
+    if (json.at("format") != kCampaignFormat) {
+      throw InputError({"this is no campaign of this version of rollrig", path, 0, "format", json.at("format").dump(),
+                        kCampaignFormat, ""});
+    }
+    definition.version = json.at("rollrig").get<std::string>();
+    visit_run(definition.run, [&json](const char* key, auto& value) {
+      const auto found = json.at("run").find(key);
+      if (found != json.at("run").end()) found->get_to(value);
+    });
+    for (const Json& file : json.at("files")) definition.files.push_back({file.at("path"), file.at("sha256")});
+    definition.design.name = json.at("design").get<std::string>();
+    definition.design.points = json.value("points", std::size_t{0});
+    definition.design.seed = json.at("seed").get<std::uint64_t>();
+    for (const Json& factor : json.at("factors")) definition.design.factors.push_back(read_factor(factor));
+    for (const Json& pair : json.value("correlated", Json::array())) {
+      definition.design.correlated.push_back({find_factor(definition.design.factors, pair.at("factors").at(0)),
+                                              find_factor(definition.design.factors, pair.at("factors").at(1)),
+                                              pair.at("correlation").get<double>()});
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError({fmt::format("the file of the campaign was changed or is damaged: {}", error.what()), path, 0, "",
+                      "", "what rollrig campaign new writes", ""});
+  }
+  return definition;
+}
+
+CampaignDefinition make_definition(const RunCampaignInput& input) {
+  CampaignDefinition definition;
+  definition.version = library_version();
+  definition.run = input.run;
+  definition.run.seed.clear();
+  for (std::string* name : {&definition.run.scenario_or_file, &definition.run.tire, &definition.run.rig,
+                            &definition.run.vehicle, &definition.run.sensors}) {
+    make_absolute(*name);
+  }
+  const scenarios::RunSpec spec = read_run(input.run);
+  const bool is_drawn = !input.drawn.empty() || !input.drawn_sd.empty();
+  definition.design.name = !input.design.empty() ? input.design : is_drawn ? campaigns::kMonteCarlo : campaigns::kGrid;
+  definition.design.factors = list_factors(input, spec);
+  definition.design.correlated =
+      list_correlated(definition.design.factors, input.axes.size() + input.drawn.size(), spec);
+  definition.design.points = input.points;
+  definition.design.seed = spec.seed;
+  definition.files = list_files(definition.run, spec);
+  const auto is_set = [&](const campaigns::Factor& factor) {
+    const auto sets = [&](const std::string& setting) { return setting.rfind(factor.key + "=", 0) == 0; };
+    return std::any_of(input.run.settings.begin(), input.run.settings.end(), sets);
+  };
+  for (const campaigns::Factor& factor : definition.design.factors) {
+    if (!is_set(factor)) continue;
+    throw InputError({fmt::format("'{}' is a factor and set", factor.key), "command line", 0, "--set", factor.key,
+                      "one of both", ""});
+  }
+  return definition;
+}
+
+void require_unchanged(const CampaignDefinition& definition, const std::string& path) {
+  if (definition.version != library_version()) {
+    throw InputError({fmt::format("the campaign was begun with rollrig {}; its results could differ from those of "
+                                  "rollrig {}",
+                                  definition.version, library_version()),
+                      path, 0, "rollrig", definition.version, "the same version, or a new campaign", ""});
+  }
+  for (const CampaignFile& file : definition.files) {
+    if (calc_sha256(read_text_file(file.path)) == file.sha256) continue;
+    throw InputError({fmt::format("{} has changed since the campaign was begun", file.path), path, 0, "files", "",
+                      "the file as it was, or a new campaign", ""});
+  }
+}
+
+}  // namespace rollrig

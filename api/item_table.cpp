@@ -1,0 +1,48 @@
+#include "api/item_table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "campaigns/store.h"
+#include "scenarios/run/flat_results.h"
+#include "sim/core/parse_json.h"
+
+namespace rollrig {
+
+namespace {
+
+Json read_result(const campaigns::Record& record) {
+  return parse_json(record.result, fmt::format("result of item {}", record.item + 1));
+}
+
+}  // namespace
+
+ItemTable read_item_table(const std::vector<std::string>& files, const std::string& definition) {
+  scenarios::ResultFlattener flattener;
+  campaigns::read_records(files, definition, [&flattener](const campaigns::Record& record) {
+    if (record.failure.empty()) flattener.learn_names(read_result(record));
+  });
+  ItemTable table;
+  std::map<std::string, std::size_t> places;
+  campaigns::read_records(files, definition, [&](const campaigns::Record& record) {
+    const std::size_t row = table.items.size();
+    table.items.push_back(record.item);
+    table.failures.push_back(record.failure);
+    for (std::vector<double>& column : table.numbers) column.push_back(std::nan(""));
+    if (!record.failure.empty()) return;
+    const Json flat = flattener.flatten(read_result(record));
+    for (const auto& [key, value] : flat.items()) {
+      const auto [place, is_new] = places.emplace(key, table.results.size());
+      if (is_new) {
+        table.results.push_back(key);
+        table.numbers.emplace_back(row + 1, std::nan(""));
+      }
+      table.numbers[place->second][row] = value.get<double>();
+    }
+  });
+  return table;
+}
+
+}  // namespace rollrig

@@ -1,0 +1,315 @@
+#include "campaigns/design.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <boost/random/sobol.hpp>
+
+#include "sim/core/error.h"
+#include "sim/core/random.h"
+
+namespace rollrig::campaigns {
+namespace {
+
+InputError bad_design(const std::string& what, const char* option, const std::string& value,
+                      const std::string& allowed) {
+  return InputError({what, "command line", 0, option, value, allowed, ""});
+}
+
+/// The lower triangular root of the matrix of correlations; empty where all factors are independent.
+Eigen::MatrixXd calc_root(const DesignInput& input) {
+  if (input.correlated.empty()) return {};
+  const auto factors = static_cast<Eigen::Index>(input.factors.size());
+  Eigen::MatrixXd correlations = Eigen::MatrixXd::Identity(factors, factors);
+  for (const FactorPair& pair : input.correlated) {
+    const auto first = static_cast<Eigen::Index>(pair.first);
+    const auto second = static_cast<Eigen::Index>(pair.second);
+    correlations(first, second) = correlations(second, first) = pair.correlation;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> root(correlations);
+  if (root.info() == Eigen::Success) return root.matrixL();
+  throw bad_design("the correlations of the factors contradict each other", "--draw-sd", "",
+                   "correlations that some numbers can have");
+}
+
+class Grid : public Design {
+ public:
+  explicit Grid(std::vector<Factor> factors) : factors_(std::move(factors)) {}
+
+  std::size_t count_items() const override {
+    std::size_t items = 1;
+    for (const Factor& factor : factors_) items *= factor.values.size();
+    return items;
+  }
+
+  std::vector<std::string> calc_values(std::size_t item) const override {
+    std::vector<std::string> values(factors_.size());
+    for (std::size_t f = factors_.size(); f-- > 0;) {
+      const std::vector<std::string>& known = factors_[f].values;
+      values[f] = known[item % known.size()];
+      item /= known.size();
+    }
+    return values;
+  }
+
+ private:
+  std::vector<Factor> factors_;
+};
+
+/// A design whose items are points of the unit cube: shares of the factors' probability.
+class UnitCube : public Design {
+ public:
+  explicit UnitCube(const DesignInput& input) : input_(input), root_(calc_root(input)) {}
+
+  std::vector<std::string> calc_values(std::size_t item) const override {
+    std::vector<double> shares = calc_shares(item);
+    constexpr double kLeast = 1e-15;  // 0 and 1 are infinitely far away in a normal distribution
+    for (double& share : shares) share = std::clamp(share, kLeast, 1.0 - kLeast);
+    Eigen::VectorXd scores(root_.cols());
+    for (Eigen::Index f = 0; f < scores.size(); ++f) scores(f) = calc_score(shares[static_cast<std::size_t>(f)]);
+    if (scores.size() > 0) scores = root_ * scores;
+    std::vector<std::string> values;
+    for (std::size_t f = 0; f < shares.size(); ++f) {
+      const Factor& factor = input_.factors[f];
+      const bool is_correlated = scores.size() > 0 && factor.kind == Factor::Kind::kNormal;
+      values.push_back(is_correlated ? calc_normal_value(factor, scores(static_cast<Eigen::Index>(f)))
+                                     : factor.calc_value(shares[f]));
+    }
+    return values;
+  }
+
+ protected:
+  virtual std::vector<double> calc_shares(std::size_t item) const = 0;
+
+  std::size_t count_factors() const { return input_.factors.size(); }
+  std::size_t count_points() const { return input_.points; }
+  std::uint64_t seed() const { return input_.seed; }
+  const std::string& key(std::size_t factor) const { return input_.factors[factor].key; }
+
+ private:
+  DesignInput input_;
+  Eigen::MatrixXd root_;  // of the correlations, by which independent scores become correlated; empty without any
+};
+
+class MonteCarlo : public UnitCube {
+ public:
+  using UnitCube::UnitCube;
+
+  std::size_t count_items() const override { return count_points(); }
+
+ protected:
+  std::vector<double> calc_shares(std::size_t item) const override {
+    RandomStream random(seed(), fmt::format("draws of item {}", item));
+    std::vector<double> shares(count_factors());
+    for (double& share : shares) share = random.uniform();
+    return shares;
+  }
+};
+
+class LatinHypercube : public UnitCube {
+ public:
+  explicit LatinHypercube(const DesignInput& input) : UnitCube(input) {
+    for (std::size_t f = 0; f < count_factors(); ++f) {
+      std::vector<std::uint32_t> parts(count_points());
+      std::iota(parts.begin(), parts.end(), 0U);
+      RandomStream random(seed(), "order of " + key(f));
+      for (std::size_t i = parts.size(); i > 1; --i) {
+        std::swap(parts[i - 1], parts[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+      }
+      parts_.push_back(std::move(parts));
+    }
+  }
+
+  std::size_t count_items() const override { return count_points(); }
+
+ protected:
+  std::vector<double> calc_shares(std::size_t item) const override {
+    RandomStream random(seed(), fmt::format("place of item {} in its parts", item));
+    std::vector<double> shares;
+    for (const std::vector<std::uint32_t>& parts : parts_) {
+      shares.push_back((parts[item] + random.uniform()) / static_cast<double>(parts.size()));
+    }
+    return shares;
+  }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> parts_;  // of each factor, of each item
+};
+
+/// Points of a Sobol' sequence.
+class SobolPoints {
+ public:
+  SobolPoints(std::uint64_t seed, std::size_t dimensions) {
+    RandomStream random(seed, "shift of the Sobol' sequence");
+    for (std::size_t d = 0; d < dimensions; ++d) {
+      // Two draws of 32 bits, since a double has no 64.
+      const auto high = static_cast<std::uint64_t>(random.uniform() * 0x1p32);
+      const auto low = static_cast<std::uint64_t>(random.uniform() * 0x1p32);
+      shift_.push_back((high << 32U) | low);
+    }
+  }
+
+  std::vector<double> calc(std::size_t point) const {
+    boost::random::sobol sequence(shift_.size());
+    if (point > 0) sequence.seed(point - 1);  // Boost leaves the origin out, the sequence's first point
+    std::vector<double> shares;
+    for (const std::uint64_t shift : shift_) {
+      const std::uint64_t coordinate = point > 0 ? sequence() : 0;
+      shares.push_back(static_cast<double>((coordinate ^ shift) >> 11U) * 0x1p-53);
+    }
+    return shares;
+  }
+
+ private:
+  std::vector<std::uint64_t> shift_;
+};
+
+class Sobol : public UnitCube {
+ public:
+  explicit Sobol(const DesignInput& input) : UnitCube(input), points_(seed(), count_factors()) {}
+
+  std::size_t count_items() const override { return count_points(); }
+
+ protected:
+  std::vector<double> calc_shares(std::size_t item) const override { return points_.calc(item); }
+
+ private:
+  SobolPoints points_;
+};
+
+class SobolIndices : public UnitCube {
+ public:
+  explicit SobolIndices(const DesignInput& input) : UnitCube(input), points_(seed(), 2 * count_factors()) {}
+
+  std::size_t count_items() const override { return count_points() * (count_factors() + 2); }
+
+ protected:
+  std::vector<double> calc_shares(std::size_t item) const override {
+    const std::size_t factors = count_factors();
+    const std::size_t matrix = item % (factors + 2);
+    const std::vector<double> both = points_.calc(item / (factors + 2));
+    const auto middle = both.begin() + static_cast<std::ptrdiff_t>(factors);
+    if (matrix == 1) return {middle, both.end()};
+    std::vector<double> shares(both.begin(), middle);
+    if (matrix > 1) shares[matrix - 2] = both[factors + matrix - 2];
+    return shares;
+  }
+
+ private:
+  SobolPoints points_;
+};
+
+class Morris : public UnitCube {
+ public:
+  using UnitCube::UnitCube;
+
+  std::size_t count_items() const override { return count_points() * (count_factors() + 1); }
+
+ protected:
+  std::vector<double> calc_shares(std::size_t item) const override {
+    const std::size_t items = count_factors() + 1;
+    const Trajectory trajectory = make_trajectory(seed(), item / items, count_factors());
+    std::vector<double> shares = trajectory.start;
+    for (std::size_t s = 0; s < item % items; ++s) shares[trajectory.order[s]] += kMorrisStep * trajectory.signs[s];
+    return shares;
+  }
+};
+
+void check(const DesignInput& input) {
+  const std::vector<std::string> known = design_names();
+  if (std::find(known.begin(), known.end(), input.name) == known.end()) {
+    InputProblem problem = unknown_name("design", input.name, known);
+    problem.file = "command line";
+    problem.key = "--design";
+    throw InputError(problem);
+  }
+  const bool is_grid = input.name == kGrid;
+  if (input.factors.empty()) {
+    throw bad_design(
+        "nothing differs between the items", is_grid ? "--vary" : "--draw", "",
+        is_grid ? "--vary key=a,b,c" : "--draw key=normal:MEAN:SD, --draw key=uniform:LOW:HIGH, --draw-sd");
+  }
+  for (auto factor = input.factors.begin(); factor != input.factors.end(); ++factor) {
+    const auto is_same = [&](const Factor& other) { return other.key == factor->key; };
+    if (std::any_of(input.factors.begin(), factor, is_same)) {
+      throw bad_design(fmt::format("'{}' is a factor twice", factor->key), "--draw", factor->key, "each factor once");
+    }
+    if (is_grid && factor->kind != Factor::Kind::kValues) {
+      throw bad_design(fmt::format("a grid has values of '{}', and no distribution", factor->key), "--design", kGrid,
+                       fmt::format("--vary, or one of {}", fmt::join(known.begin() + 1, known.end(), ", ")));
+    }
+  }
+  const bool needs_independence = input.name == kSobolIndices || input.name == kMorris;
+  if (needs_independence && !input.correlated.empty()) {
+    const FactorPair& pair = input.correlated.front();
+    throw bad_design(fmt::format("'{}' and '{}' are correlated, and design {} needs independent factors",
+                                 input.factors[pair.first].key, input.factors[pair.second].key, input.name),
+                     "--design", input.name, "--draw for factors that are independent; or another design");
+  }
+  if (is_grid != (input.points == 0)) {
+    throw bad_design(is_grid ? "the points of a grid follow from its values" : "no number of points is given",
+                     "--points", is_grid ? std::to_string(input.points) : "",
+                     is_grid ? "no --points, or another --design" : "--points N");
+  }
+}
+
+void require_few(const std::vector<std::size_t>& counts) {
+  std::size_t items = 1;
+  for (const std::size_t count : counts) {
+    items *= count;  // no overflow: below, and a count is at most kMostItems
+    if (count <= kMostItems && items <= kMostItems) continue;
+    throw bad_design("too many items in a campaign", "--points", fmt::format("{}", fmt::join(counts, " x ")),
+                     fmt::format("at most {} items", kMostItems));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> design_names() {
+  return {kGrid, kMonteCarlo, kLatinHypercube, kSobol, kSobolIndices, kMorris};
+}
+
+Trajectory make_trajectory(std::uint64_t seed, std::size_t trajectory, std::size_t factors) {
+  RandomStream random(seed, fmt::format("trajectory {}", trajectory));
+  Trajectory made;
+  for (std::size_t f = 0; f < factors; ++f) {
+    // One of the four levels, of which a step up or down leads to another.
+    const double level = std::floor(4.0 * random.uniform());
+    made.start.push_back((level + 0.5) / 4.0);
+    made.order.push_back(f);
+  }
+  for (std::size_t i = factors; i > 1; --i) {
+    std::swap(made.order[i - 1], made.order[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+  }
+  for (const std::size_t factor : made.order) made.signs.push_back(made.start[factor] < 0.5 ? 1.0 : -1.0);
+  return made;
+}
+
+std::unique_ptr<Design> make_design(const DesignInput& input) {
+  check(input);
+  const std::size_t factors = input.factors.size();
+  if (input.name == kGrid) {
+    std::vector<std::size_t> counts;
+    for (const Factor& factor : input.factors) counts.push_back(factor.values.size());
+    require_few(counts);
+    return std::make_unique<Grid>(input.factors);
+  }
+  if (input.name == kSobolIndices) {
+    require_few({input.points, factors + 2});
+    return std::make_unique<SobolIndices>(input);
+  }
+  if (input.name == kMorris) {
+    require_few({input.points, factors + 1});
+    return std::make_unique<Morris>(input);
+  }
+  require_few({input.points});
+  if (input.name == kMonteCarlo) return std::make_unique<MonteCarlo>(input);
+  if (input.name == kLatinHypercube) return std::make_unique<LatinHypercube>(input);
+  return std::make_unique<Sobol>(input);
+}
+
+}  // namespace rollrig::campaigns

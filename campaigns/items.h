@@ -1,0 +1,63 @@
+#pragma once
+/// Carries out the items of a campaign: those that are not done yet, of one share of them.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "campaigns/share.h"
+#include "sim/core/json.h"
+
+namespace rollrig::campaigns {
+
+/// A list of items, each of which can be carried out without the others, on any machine, in any order, with the same
+/// result to the bit.
+class ItemList {
+ public:
+  virtual ~ItemList() = default;
+
+  virtual std::size_t count() const = 0;
+  /// What tells the item from the others, for its identity and for people.
+  virtual Json describe(std::size_t item) const = 0;
+  /// The result. Throws RunFailure or InputError for an item that cannot be carried out, Interrupted. Called from
+  /// several threads.
+  virtual Json carry_out(std::size_t item, std::uint64_t seed) const = 0;
+};
+
+/// Where a campaign is, and what it is.
+struct CampaignFolder {
+  std::string path;
+  std::string definition;  // content of its campaign.json
+  std::uint64_t seed = 1;  // from which those of the items follow
+
+  /// The file of a share's results: "results_0003_of_0010.sqlite".
+  std::string file_of(const Share& share) const;
+  /// All files of results, by name.
+  std::vector<std::string> list_files() const;
+};
+
+/// The seed of an item: the first 31 bits of SHA-256 over the campaign's seed and the item.
+std::uint64_t calc_item_seed(std::uint64_t campaign_seed, std::size_t item);
+
+/// How far a campaign is.
+struct Tally {
+  std::size_t items = 0;  // in all
+  std::size_t done = 0;   // carried out, with those that failed
+  std::size_t failed = 0;
+};
+
+/// Carries out the items of a share that no file of the folder has, and writes each as soon as it is done. `advance`
+/// is called after each item, with the share of these items that is done. Throws Interrupted, and InputError as Store
+/// does; what was done stays.
+Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Share& share, int threads,
+                      const std::function<void(double)>& advance = {});
+
+/// What is done of all items. Files that a process writes now are counted by what it says in `<file>.progress`.
+struct FolderState {
+  Tally tally;
+  std::vector<std::string> running;  // files that a process writes now
+};
+FolderState read_state(const CampaignFolder& folder, std::size_t items);
+
+}  // namespace rollrig::campaigns

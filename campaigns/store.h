@@ -1,0 +1,57 @@
+#pragma once
+/// What came out of a campaign's items, in files of SQLite: one file for each process that works, which alone writes
+/// it. Nothing is ever changed in it, only added.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rollrig::campaigns {
+
+/// An item that was carried out.
+struct Record {
+  std::size_t item = 0;  // from 0
+  std::string identity;  // SHA-256 of all that it depends on
+  std::uint64_t seed = 0;
+  std::string result;   // JSON on one line; empty where it failed
+  std::string failure;  // why; empty where it did not fail
+};
+
+/// A file of records.
+///
+/// Kept as a write-ahead log in exclusive locking mode: each record is safe from a kill of the process once write()
+/// has returned, and from a loss of power some seconds later; no memory is shared with other processes, so that the
+/// file may be on a network drive; a second process that opens it is refused.
+/// Source   sqlite.org/wal.html, "Use of WAL Without Shared-Memory"
+class Store {
+ public:
+  /// Opens a file, or makes it. `definition` says what the campaign is. Throws InputError: the file is another
+  /// campaign's, is no such file, cannot be written, or another process has it open.
+  Store(const std::string& path, const std::string& definition);
+  ~Store();
+  Store(const Store&) = delete;
+  Store& operator=(const Store&) = delete;
+
+  /// Throws InputError where it cannot be written, such as on a full disk.
+  void write(const Record& record);
+
+ private:
+  struct Database;
+  std::unique_ptr<Database> database_;
+};
+
+/// Whether a process writes the file now.
+bool is_in_use(const std::string& path);
+
+/// Calls `take` for each record of the files in order of their items, once for each item. Throws InputError: as Store
+/// does, and where two files have different records of one item.
+void read_records(const std::vector<std::string>& paths, const std::string& definition,
+                  const std::function<void(const Record&)>& take);
+
+/// The items of a file with whether each of them failed, without the rest of their records, in their order.
+void read_items(const std::string& path, const std::string& definition,
+                const std::function<void(std::size_t item, bool has_failed)>& take);
+
+}  // namespace rollrig::campaigns

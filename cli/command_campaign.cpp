@@ -1,0 +1,229 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/output_files.h"
+#include "cli/progress.h"
+#include "rollrig/run_campaign.h"
+#include "sim/core/columns.h"
+#include "sim/core/text.h"
+
+namespace rollrig::cli {
+namespace {
+
+struct NewCampaignOptions {
+  RunCampaignInput input;
+  std::vector<std::string> vary;
+  std::string folder;
+  bool quiet = false;
+};
+
+struct CampaignRunOptions {
+  std::string folder;
+  std::string shard;
+  int threads = 0;
+  bool has_program_progress = false;
+  OutputOptions output;
+};
+
+struct CampaignFolderOptions {
+  std::string folder;
+  OutputOptions output;
+};
+
+struct CampaignExportOptions {
+  std::string folder;
+  std::string csv;
+  std::string mat;
+  std::string hdf5;
+  bool quiet = false;
+};
+
+struct SensitivityOptions {
+  std::string folder;
+  std::string result;
+  OutputOptions output;
+};
+
+struct SlurmOptions {
+  std::string folder;
+  std::size_t tasks = 1;
+};
+
+int new_campaign_command(const NewCampaignOptions& options) {
+  RunCampaignInput input = options.input;
+  for (const std::string& text : options.vary) input.axes.push_back(read_sweep_axis(text));
+  define_run_campaign(input, options.folder);
+  if (options.quiet) return kDone;
+  std::cout << RunCampaign(options.folder).read_state().text
+            << wrap(fmt::format("Next: rollrig campaign run {}", options.folder), 0);
+  return kDone;
+}
+
+/// As asked for, else as a batch system or a launcher says, else all.
+CampaignShare choose_share(const std::string& asked) {
+  if (!asked.empty()) return read_campaign_share(asked);
+  return find_campaign_share().value_or(CampaignShare{});
+}
+
+int campaign_run_command(const CampaignRunOptions& options) {
+  const RunCampaign campaign(options.folder);
+  const CampaignShare share = choose_share(options.shard);
+  Output output(options.output);
+  RunCampaignState state;
+  try {
+    ProgressLine progress("campaign", options.output.quiet,
+                          options.has_program_progress ? ProgressReader::kProgram : ProgressReader::kPerson);
+    state = campaign.carry_out(share, options.threads, progress.callback());
+  } catch (const Interrupted&) {
+    std::cerr << wrap("stopped: what was done is kept; the same command goes on", 2).substr(2);
+    return kInterrupted;
+  }
+  output.show(state);
+  return state.failed == 0 ? kDone : kRunFailed;
+}
+
+int campaign_status_command(const CampaignFolderOptions& options) {
+  Output output(options.output);
+  output.show(RunCampaign(options.folder).read_state());
+  return kDone;
+}
+
+int campaign_merge_command(const CampaignFolderOptions& options) {
+  Output output(options.output);
+  output.show(RunCampaign(options.folder).merge());
+  return kDone;
+}
+
+int campaign_export_command(const CampaignExportOptions& options) {
+  if (options.csv.empty() && options.mat.empty() && options.hdf5.empty()) {
+    throw usage_error("no file to write is given", "", "", "--csv FILE, --mat FILE, --hdf5 FILE");
+  }
+  const OutputFiles files({{"--csv", options.csv}, {"--mat", options.mat}, {"--hdf5", options.hdf5}});
+  const RunCampaign campaign(options.folder);
+  std::vector<StagedOutput> staged;
+  if (!options.csv.empty()) staged.emplace_back(options.csv, campaign.make_csv());
+  if (!options.mat.empty() || !options.hdf5.empty()) {
+    const Export made = campaign.make_export();
+    if (!options.mat.empty()) staged.emplace_back(options.mat, made.make_mat());
+    if (!options.hdf5.empty()) staged.emplace_back(options.hdf5, made.make_hdf5());
+  }
+  files.require_no_input();
+  commit_all(staged);
+  const std::vector<std::string> written{options.csv, options.mat, options.hdf5};
+  if (options.quiet || std::find(written.begin(), written.end(), "-") != written.end()) return kDone;
+  for (const std::string& file : written) {
+    if (!file.empty()) std::cout << fmt::format("written to {}\n", file);
+  }
+  return kDone;
+}
+
+int sensitivity_command(const SensitivityOptions& options) {
+  Output output(options.output);
+  output.show(RunCampaign(options.folder).calc_sensitivity(options.result));
+  return kDone;
+}
+
+int slurm_command(const SlurmOptions& options) {
+  std::cout << RunCampaign(options.folder)
+                   .make_slurm_job(options.tasks, std::filesystem::read_symlink("/proc/self/exe").string());
+  return kDone;
+}
+
+template <class Options>
+void add_folder(CLI::App& command, Options& options) {
+  command.add_option("folder", options.folder, "Folder of the campaign")->required();
+}
+
+/// --json and --quiet.
+void add_json(CLI::App& command, OutputOptions& output, const char* doc) {
+  add_output_option(command, "--json", output.json, doc);
+  command.add_flag("--quiet", output.quiet, "Print nothing but errors");
+}
+
+void add_new_campaign(CLI::App& campaign, Action& action) {
+  const auto [command, options] = add_command<NewCampaignOptions>(
+      campaign, action, "new", "Say what a campaign consists of, before anything is run", &new_campaign_command);
+  RunCampaignInput& input = options->input;
+  command->add_option("folder", options->folder, "Folder to make")->required();
+  add_run_options(*command, input.run);
+  command->add_option("--vary", options->vary, "Of a grid: key=a,b,c or key=from:to:step; may be repeated")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--draw", input.drawn, "key=uniform:LOW:HIGH or key=normal:MEAN:SD; may be repeated")
+      ->expected(1)
+      ->take_all();
+  command
+      ->add_option("--draw-sd", input.drawn_sd,
+                   "tire, rig, vehicle, with commas: every number of that file beside its standard uncertainty, as a "
+                   "normal distribution")
+      ->delimiter(',');
+  command->add_option(
+      "--design", input.design,
+      fmt::format("{} [grid; where something is drawn, monte_carlo]", fmt::join(campaign_designs(), ", ")));
+  command->add_option("--points", input.points, "Points of a design that is no grid");
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+}
+
+}  // namespace
+
+void add_campaign_command(CLI::App& app, Action& action) {
+  CLI::App* campaign = app.add_subcommand("campaign", "Many runs of a scenario: shared among processes, resumable");
+  campaign->require_subcommand(1);
+  add_new_campaign(*campaign, action);
+  {
+    const auto [command, options] = add_command<CampaignRunOptions>(
+        *campaign, action, "run", "Carry out what is not done, of all or of a share; also after an interruption",
+        &campaign_run_command);
+    command->alias("resume");
+    add_folder(*command, *options);
+    command->add_option("--shard", options->shard,
+                        "I/N: part I of N parts [what Slurm, Grid Engine, srun or mpirun says, else all]");
+    add_threads(*command, options->threads);
+    command->add_flag("--progress", options->has_program_progress,
+                      "Each second a line of JSON on standard error: the share that is done, and the seconds left");
+    add_json(*command, options->output, "File for the counts of items, - for standard output");
+  }
+  {
+    const auto [command, options] = add_command<CampaignFolderOptions>(
+        *campaign, action, "status", "How many items are done", &campaign_status_command);
+    add_folder(*command, *options);
+    add_json(*command, options->output, "File for the counts of items, - for standard output");
+  }
+  {
+    const auto [command, options] = add_command<CampaignFolderOptions>(
+        *campaign, action, "merge", "Put the results of all processes into one file", &campaign_merge_command);
+    add_folder(*command, *options);
+    add_json(*command, options->output, "File for the counts of items, - for standard output");
+  }
+  {
+    const auto [command, options] = add_command<CampaignExportOptions>(
+        *campaign, action, "export", "Write all results as a table", &campaign_export_command);
+    add_folder(*command, *options);
+    add_output_option(*command, "--csv", options->csv, "File in CSV; - for standard output");
+    add_output_option(*command, "--mat", options->mat, "File for MATLAB, version 5; - for standard output");
+    add_output_option(*command, "--hdf5", options->hdf5, "File in HDF5; - for standard output");
+    command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  }
+  {
+    const auto [command, options] =
+        add_command<SensitivityOptions>(*campaign, action, "sensitivity",
+                                        "How much of a result's spread comes from which factor", &sensitivity_command);
+    add_folder(*command, *options);
+    command->add_option("--result", options->result, "A result, by its name in the exported table")->required();
+    add_json(*command, options->output, "File for the indices, - for standard output");
+  }
+  {
+    const auto [command, options] = add_command<SlurmOptions>(
+        *campaign, action, "slurm", "Print a job array for Slurm, to be given to sbatch", &slurm_command);
+    add_folder(*command, *options);
+    command->add_option("--tasks", options->tasks, "Tasks of the array")->required()->check(CLI::Range(1, 1000000));
+  }
+}
+
+}  // namespace rollrig::cli

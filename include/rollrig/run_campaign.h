@@ -1,0 +1,87 @@
+#pragma once
+/// A campaign of runs: one scenario with many sets of values, carried out by one process or by many, at once or in
+/// several goes, with the same results to the bit. docs/campaigns.md.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "export.h"
+#include "progress.h"
+#include "result.h"
+#include "run.h"
+#include "sweep.h"
+
+#pragma GCC visibility push(default)
+namespace rollrig {
+
+/// What a campaign is made of.
+struct RunCampaignInput {
+  RunInput run;                       // its seed is the campaign's
+  std::vector<SweepAxis> axes;        // of a grid: every value with every other
+  std::vector<std::string> drawn;     // "key=uniform:LOW:HIGH" or "key=normal:MEAN:SD"
+  std::vector<std::string> drawn_sd;  // "tire", "rig", "vehicle": every number with an _sd in that file is normal
+  std::string design;                 // one of campaign_designs(); empty: grid, or monte_carlo where something is drawn
+  std::size_t points = 0;             // of a design that is no grid
+};
+
+std::vector<std::string> campaign_designs();
+
+/// Which items a process carries out: part 1 to `parts`.
+struct CampaignShare {
+  std::size_t part = 1;
+  std::size_t parts = 1;
+};
+
+/// "3/10". Throws InputError.
+CampaignShare read_campaign_share(const std::string& text);
+/// What Slurm, Grid Engine, mpirun or srun says in the environment; none where the process was started by itself.
+/// Throws InputError.
+std::optional<CampaignShare> find_campaign_share();
+
+/// How far a campaign, or a share of it, is.
+struct RunCampaignState : Report {
+  std::size_t items = 0;
+  std::size_t done = 0;  // with those that failed
+  std::size_t failed = 0;
+};
+
+/// Makes the folder of a campaign with its campaign.json. Throws InputError: whatever is wrong with the runs or the
+/// design, and where the folder holds files.
+void define_run_campaign(const RunCampaignInput& input, const std::string& folder);
+
+/// A campaign in its folder.
+class RunCampaign {
+ public:
+  /// Throws InputError: the folder holds no campaign, or what the campaign was made of has changed since: a file, or
+  /// the version of rollrig.
+  explicit RunCampaign(const std::string& folder);
+
+  /// Carries out what is not done of a share. Each result is kept as soon as it is there, so that an interruption
+  /// loses only what is being computed. Throws InputError where another process works on the share, Interrupted.
+  RunCampaignState carry_out(const CampaignShare& share, int threads = 0, const Progress& progress = {}) const;
+  /// What all processes have done up to now.
+  RunCampaignState read_state() const;
+  /// Puts all results into one file, and takes the others away. Throws InputError where a process still works.
+  RunCampaignState merge() const;
+
+  /// All items that are done, in their order: item, values, results, failure. Throws InputError where none is.
+  std::string make_csv() const;
+  Export make_export() const;
+  /// How much of a result's spread comes from which factor, for the designs sobol_indices and morris.
+  /// Throws InputError: another design, an unknown result, too few items.
+  Report calc_sensitivity(const std::string& result) const;
+  /// A job for Slurm's sbatch: an array of `tasks` tasks, each of which carries out a share. `program` is how the tasks
+  /// call rollrig.
+  std::string make_slurm_job(std::size_t tasks, const std::string& program) const;
+
+ private:
+  struct Data;
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace rollrig
+#pragma GCC visibility pop

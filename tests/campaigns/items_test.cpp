@@ -1,0 +1,126 @@
+// Items: each once, whoever carries them out and however often that is interrupted.
+#include "campaigns/items.h"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "campaigns/store.h"
+#include "include/rollrig/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using namespace rollrig::campaigns;
+using rollrig::Json;
+using rollrig::tests::TemporaryFolder;
+
+/// 50 items; every ninth fails, and the run is interrupted before `most` of them are done.
+class FakeItems : public ItemList {
+ public:
+  explicit FakeItems(int most = 1000) : most_(most) {}
+
+  std::size_t count() const override { return 50; }
+  Json describe(std::size_t item) const override { return {{"x", item}}; }
+  Json carry_out(std::size_t item, std::uint64_t seed) const override {
+    if (carried_out_++ >= most_) throw rollrig::Interrupted();
+    if (item % 9 == 4) throw rollrig::RunFailure("the tire\nburst");
+    return {{"square", item * item}, {"seed", seed}};
+  }
+
+  int count_carried_out() const { return carried_out_; }
+
+ private:
+  int most_;
+  mutable std::atomic<int> carried_out_{0};
+};
+
+/// All records as one text.
+std::string read_all(const CampaignFolder& folder) {
+  std::string text;
+  read_records(folder.list_files(), folder.definition, [&text](const Record& record) {
+    text += std::to_string(record.item) + " " + record.identity + " " + std::to_string(record.seed) + " " +
+            record.result + " " + record.failure + "\n";
+  });
+  return text;
+}
+
+std::string read_undisturbed() {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  carry_out_items(FakeItems(), folder, {1, 1}, 1);
+  return read_all(folder);
+}
+
+}  // namespace
+
+TEST_CASE("every item is carried out once, and a failure is its result", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  const FakeItems list;
+  const Tally tally = carry_out_items(list, folder, {1, 1}, 2);
+  CHECK(tally.items == 50);
+  CHECK(tally.done == 50);
+  CHECK(tally.failed == 6);
+  const std::string all = read_all(folder);
+  CHECK(all == read_undisturbed());  // that of one thread
+  CHECK_THAT(all, Catch::Contains("the tire; burst"));
+  carry_out_items(list, folder, {1, 1}, 2);
+  CHECK(list.count_carried_out() == 50);
+}
+
+TEST_CASE("shares, interruptions and other splits come to the same results", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  for (const int most : {5, 1, 0, 8}) {
+    CHECK_THROWS_AS(carry_out_items(FakeItems(most), folder, {2, 3}, 2), rollrig::Interrupted);
+  }
+  const FolderState state = read_state(folder, 50);
+  CHECK(state.tally.done >= 10);  // 14, but for those that two threads had begun
+  CHECK(state.tally.done <= 14);
+  carry_out_items(FakeItems(), folder, {1, 3}, 2);
+  const FakeItems rest;
+  carry_out_items(rest, folder, {1, 1}, 2);
+  CHECK(rest.count_carried_out() <= 50 - 17 - 10);
+  CHECK(read_all(folder) == read_undisturbed());
+  CHECK(read_state(folder, 50).tally.done == 50);
+}
+
+TEST_CASE("one process alone writes a file", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  const Store store(folder.file_of({1, 2}), "test");
+  CHECK(is_in_use(folder.file_of({1, 2})));
+  CHECK_THROWS_AS(Store(folder.file_of({1, 2}), "test"), rollrig::InputError);
+  CHECK_THROWS_AS(carry_out_items(FakeItems(), folder, {1, 2}, 1), rollrig::InputError);
+  carry_out_items(FakeItems(), folder, {2, 2}, 1);
+  const FolderState state = read_state(folder, 50);
+  CHECK(state.tally.done == 25);
+  CHECK(state.running.size() == 1);
+}
+
+TEST_CASE("results of another campaign and damaged files are refused", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  carry_out_items(FakeItems(), folder, {1, 2}, 1);
+  CHECK_THROWS_AS(carry_out_items(FakeItems(), {at.path(), "other", 11}, {1, 1}, 1), rollrig::InputError);
+  std::ofstream(folder.file_of({2, 2})) << "no database, but a text that is longer than a header";
+  CHECK_THROWS_AS(read_state(folder, 50), rollrig::InputError);
+}
+
+TEST_CASE("two files that contradict each other are refused", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  Store(folder.file_of({1, 2}), "test").write({3, "identity", 1, "{\"x\":1}", ""});
+  Store(folder.file_of({2, 2}), "test").write({3, "identity", 1, "{\"x\":1}", ""});
+  CHECK(read_all(folder) == "3 identity 1 {\"x\":1} \n");
+  Store(folder.file_of({1, 3}), "test").write({3, "identity", 1, "{\"x\":2}", ""});
+  CHECK_THROWS_AS(read_all(folder), rollrig::InputError);
+}
+
+TEST_CASE("items have seeds of their own, which no split changes", "[fast]") {
+  CHECK(calc_item_seed(1, 0) != calc_item_seed(1, 1));
+  CHECK(calc_item_seed(1, 0) != calc_item_seed(2, 0));
+  CHECK(calc_item_seed(1, 0) < (std::uint64_t{1} << 31U));
+}

@@ -1,0 +1,34 @@
+#!/bin/sh
+# A campaign in four processes of mpirun, one of which is killed; the same command again completes it. The results are
+# those of one process.
+# on_mpi.sh PROGRAM; exit status 77 where Debian's openmpi-bin is missing
+set -eu
+program=$(realpath "$1")
+command -v mpirun >/dev/null || { echo "skipped: no mpirun on this machine"; exit 77; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+runs="iso_28580 --tire a50 --vary ambient_degC=20:30:0.05"
+# shellcheck disable=SC2086  # words
+"$program" campaign new alone $runs --quiet
+"$program" campaign run alone --quiet
+"$program" campaign export alone --csv alone.csv --quiet
+# shellcheck disable=SC2086
+"$program" campaign new four $runs --quiet
+run_four() {
+  mpirun --allow-run-as-root --oversubscribe -n 4 "$program" campaign run four --threads 1 --quiet
+}
+run_four 2>mpirun.log &
+launcher=$!
+for _ in $(seq 1 600); do
+  [ ! -e four/results_0002_of_0004.sqlite.progress ] || break
+  sleep 0.05
+done
+kill -9 "$(pgrep -f "campaign run four" | tail -1)"
+wait "$launcher" && { echo "mpirun did not notice that a process was killed"; exit 1; }
+"$program" campaign status four
+"$program" campaign status four --json - | grep -q '"done": 201' && { echo "all was done before the kill"; exit 1; }
+run_four
+"$program" campaign export four --csv four.csv --quiet
+cmp alone.csv four.csv
+echo "the same results in 4 processes as in one: $(($(wc -l <four.csv) - 1)) items"

@@ -1,0 +1,138 @@
+// Campaigns at the command line: the same results in however many goes and processes.
+#include <catch2/catch.hpp>
+
+#include "build_paths.h"
+
+#include "sim/core/json.h"
+#include "tests/support/run_program.h"
+
+namespace {
+
+using namespace rollrig::tests;
+using rollrig::Json;
+
+/// Runs the program and requires that it is done.
+std::string run_to_end(const std::string& arguments, const TemporaryFolder& at, const std::string& prefix = "") {
+  const ProgramResult result = run_program(arguments, at.path(), prefix);
+  INFO(arguments << "\n" << result.err);
+  REQUIRE(result.status == 0);
+  return result.out;
+}
+
+constexpr const char* kRun = "iso_28580 --tire a50 --fidelity quasi_static";
+
+/// Lines of a CSV text without the first column.
+std::string without_first_column(const std::string& csv) {
+  std::string text;
+  std::size_t start = 0;
+  while (start < csv.size()) {
+    const std::size_t end = csv.find('\n', start);
+    text += csv.substr(csv.find(',', start) + 1, end - csv.find(',', start));
+    start = end + 1;
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a campaign of a grid has the numbers of a sweep", "[fast]") {
+  const TemporaryFolder at;
+  const std::string grid = std::string(kRun) + " --vary pressure_kPa=210,250 --vary ambient_degC=20:30:5";
+  run_to_end("sweep " + grid + " --out sweep", at);
+  run_to_end("campaign new c " + grid, at);
+  run_to_end("campaign run c --shard 2/2", at);
+  CHECK_THAT(run_to_end("campaign status c", at), Catch::Contains("3 of 6 items done"));
+  run_to_end("campaign run c --threads 2", at);
+  run_to_end("campaign export c --csv c.csv", at);
+  CHECK(without_first_column(read_file(at.file("c.csv"))) == read_file(at.file("sweep/sweep.csv")));
+  run_to_end("campaign merge c", at);
+  run_to_end("campaign export c --csv merged.csv --mat c.mat --hdf5 c.h5", at);
+  CHECK(read_file(at.file("merged.csv")) == read_file(at.file("c.csv")));
+  CHECK_THAT(run_to_end("campaign run c", at), Catch::Contains("6 of 6 items done"));
+}
+
+TEST_CASE("a campaign that is killed goes on, with the same results", "[slow]") {
+  const TemporaryFolder at;
+  const std::string draws = std::string(kRun) + " --draw-sd tire --draw load_N=normal:5000:50 --points 600 --seed 4";
+  run_to_end("campaign new whole " + draws, at);
+  run_to_end("campaign run whole", at);
+  run_to_end("campaign export whole --csv whole.csv", at);
+  run_to_end("campaign new killed " + draws, at);
+  for (const char* seconds : {"0.1", "0.25", "0.2", "0.4"}) {
+    CHECK(run_program("campaign run killed", at.path(), std::string("timeout -s KILL ") + seconds).status == 137);
+  }
+  CHECK(run_program("campaign run killed", at.path(), "timeout --preserve-status -s INT 0.3").status == 130);
+  const Json state = Json::parse(run_to_end("campaign status killed --json -", at));
+  CHECK(state["done"].get<int>() > 0);
+  CHECK(state["done"].get<int>() < 600);
+  run_to_end("campaign resume killed", at);
+  run_to_end("campaign export killed --csv killed.csv", at);
+  CHECK(read_file(at.file("killed.csv")) == read_file(at.file("whole.csv")));
+}
+
+TEST_CASE("a campaign of which something has changed is refused", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end("describe a50", at);
+  const std::string tire = read_file(std::string(ROLLRIG_SOURCE_DIR) + "/assets/tires/a50.toml");
+  write_file(at.file("mine.toml"), tire);
+  run_to_end("campaign new c iso_28580 --tire ./mine.toml --fidelity quasi_static --vary ambient_degC=20,25", at);
+  run_to_end("campaign run c --shard 1/2", at);
+  write_file(at.file("mine.toml"), tire + "\n# changed\n");
+  const ProgramResult result = run_program("campaign run c", at.path());
+  CHECK(result.status == 2);
+  CHECK_THAT(flatten(result.err), Catch::Contains("mine.toml has changed since the campaign was begun"));
+  write_file(at.file("mine.toml"), tire);
+  run_to_end("campaign run c", at);
+}
+
+TEST_CASE("items that fail are kept, counted and told", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun + " --draw pressure_kPa=uniform:-100:400 --points 12 --seed 2", at);
+  const ProgramResult result = run_program("campaign run c", at.path());
+  CHECK(result.status == 3);
+  CHECK_THAT(result.out, Catch::Contains("12 of 12 items done") && Catch::Contains("of them failed"));
+  CHECK_THAT(run_to_end("campaign export c --csv -", at), Catch::Contains("pressure_kPa"));
+}
+
+TEST_CASE("which factor a result depends on", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun +
+                 " --draw ambient_degC=uniform:20:30 --draw pressure_kPa=uniform:249:251 --design sobol_indices "
+                 "--points 16",
+             at);
+  run_to_end("campaign run c", at);
+  const Json found = Json::parse(run_to_end("campaign sensitivity c --result rrc_N_per_kN --json -", at));
+  CHECK(found["factors"][0]["key"] == "ambient_degC");
+  CHECK(found["factors"][0]["first"]["value"].get<double>() == Approx(1.0).margin(0.15));
+  CHECK(found["factors"][1]["total"]["value"].get<double>() < 0.1);
+  const ProgramResult unknown = run_program("campaign sensitivity c --result rrc_N_per_k", at.path());
+  CHECK(unknown.status == 2);
+  CHECK_THAT(flatten(unknown.err), Catch::Contains("rrc_N_per_kN"));
+}
+
+TEST_CASE("what is wrong with a campaign is said before anything is made", "[fast]") {
+  const TemporaryFolder at;
+  for (const char* wrong :
+       {"new c iso_28580 --tire a50", "new c iso_28580 --tire a50 --vary ambient_degC=20,900",
+        "new c iso_28580 --tire a50 --draw ambient_degC=normal:25:1", "new c iso_28580 --tire a50 --draw-sd tyre",
+        "new c iso_28580 --tire a50 --vary ambient_degC=20 --design morris", "run c", "status c", "merge c",
+        "run c --shard 3/2", "export c --csv c.csv", "sensitivity c --result x", "slurm c --tasks 4"}) {
+    const ProgramResult result = run_program(std::string("campaign ") + wrong, at.path());
+    INFO(wrong << "\n" << result.err);
+    CHECK(result.status == 2);
+    CHECK(at.entry_count() == 0);
+  }
+}
+
+TEST_CASE("each process of a launcher carries out its share", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun + " --vary ambient_degC=20:29:1", at);
+  for (const char* id : {"1", "3", "5"}) {
+    run_to_end("campaign run c", at,
+               std::string("SLURM_ARRAY_TASK_ID=") + id +
+                   " SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=5 SLURM_ARRAY_TASK_STEP=2");
+  }
+  CHECK_THAT(run_to_end("campaign status c", at), Catch::Contains("10 of 10 items done"));
+  const std::string job = run_to_end("campaign slurm c --tasks 3", at);
+  CHECK_THAT(job, Catch::Contains("#SBATCH --array=1-3") && Catch::Contains("campaign run"));
+}
