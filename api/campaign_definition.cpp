@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
+#include <system_error>
+
+#include <boost/algorithm/string/split.hpp>
 
 #include "api/data.h"
 #include "rollrig/version.h"
@@ -33,7 +35,7 @@ void visit_run(Run& run, const Visit& visit) {
   visit("set", run.settings);
 }
 
-Json to_json(const campaigns::Factor& factor) {
+Json write_factor(const campaigns::Factor& factor) {
   Json json{{"key", factor.key}};
   switch (factor.kind) {
     case campaigns::Factor::Kind::kValues:
@@ -127,18 +129,47 @@ void make_absolute(std::string& name) {
   if (name.find('/') != std::string::npos || fs::path(name).extension() == ".toml") name = fs::absolute(name).string();
 }
 
-CampaignFile hash_file(const std::string& path) {
-  return {fs::absolute(path).string(), calc_sha256(read_text_file(path))};
+/// Likewise a value that is the path of a file, such as the speed trace of follow_drum.
+void make_absolute_if_file(std::string& value) {
+  std::error_code none;
+  if (fs::is_regular_file(value, none)) value = fs::absolute(value).string();
 }
 
-std::vector<CampaignFile> list_files(const RunInput& run, const scenarios::RunSpec& spec) {
-  std::vector<CampaignFile> files{hash_file(spec.tire.path)};
-  if (spec.scenario->has_rig()) files.push_back(hash_file(spec.rig.path));
-  if (spec.vehicle.has_value()) files.push_back(hash_file(spec.vehicle->path));
-  for (const std::string& path : {run.scenario_or_file, run.sensors}) {
-    if (fs::path(path).is_absolute()) files.push_back(hash_file(path));
+/// "key=value" likewise.
+void make_setting_absolute(std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos) return;
+  std::string value = setting.substr(equals + 1);
+  make_absolute_if_file(value);
+  setting = setting.substr(0, equals + 1) + value;
+}
+
+/// Throws InputError where a factor is given in another way, too.
+void require_once(const RunCampaignInput& input, const std::vector<campaigns::Factor>& factors) {
+  ConfigTable file;
+  if (fs::path(input.run.scenario_or_file).extension() == ".toml") file = read_config(input.run.scenario_or_file);
+  const auto is_overridden = [&file](const std::string& key) {
+    std::vector<std::string> parts;
+    boost::algorithm::split(parts, "override." + key, [](char c) { return c == '.'; });
+    const ConfigTable* table = &file;
+    for (const std::string& part : parts) {
+      const ConfigValue* value = table != nullptr ? table->find(part) : nullptr;
+      if (value == nullptr) return false;
+      table = value->as_table();
+    }
+    return true;
+  };
+  for (const campaigns::Factor& factor : factors) {
+    const auto sets = [&](const std::string& setting) { return setting.rfind(factor.key + "=", 0) == 0; };
+    if (std::any_of(input.run.settings.begin(), input.run.settings.end(), sets)) {
+      throw InputError({fmt::format("'{}' is both a factor and given by --set", factor.key), "command line", 0, "--set",
+                        factor.key, "either --set or the factor", ""});
+    }
+    if (!is_overridden(factor.key)) continue;
+    throw InputError({fmt::format("'{}' is both a factor and given by the run file", factor.key),
+                      input.run.scenario_or_file, 0, "[override]", factor.key, "either the run file or the factor",
+                      ""});
   }
-  return files;
 }
 
 }  // namespace
@@ -154,7 +185,7 @@ std::string CampaignDefinition::to_text() const {
   json["design"] = design.name;
   if (design.points > 0) json["points"] = design.points;
   json["seed"] = design.seed;
-  json["factors"] = make_list(design.factors, &to_json);
+  json["factors"] = make_list(design.factors, &write_factor);
   for (const campaigns::FactorPair& pair : design.correlated) {
     json["correlated"].push_back({{"factors", {design.factors[pair.first].key, design.factors[pair.second].key}},
                                   {"correlation", pair.correlation}});
@@ -181,9 +212,14 @@ CampaignDefinition CampaignDefinition::read(const std::string& content, const st
     definition.design.seed = json.at("seed").get<std::uint64_t>();
     for (const Json& factor : json.at("factors")) definition.design.factors.push_back(read_factor(factor));
     for (const Json& pair : json.value("correlated", Json::array())) {
-      definition.design.correlated.push_back({find_factor(definition.design.factors, pair.at("factors").at(0)),
-                                              find_factor(definition.design.factors, pair.at("factors").at(1)),
-                                              pair.at("correlation").get<double>()});
+      const auto find = [&](std::size_t place) {
+        const std::string key = pair.at("factors").at(place).get<std::string>();
+        const std::size_t factor = find_factor(definition.design.factors, key);
+        if (factor < definition.design.factors.size()) return factor;
+        throw InputError({fmt::format("'{}' is correlated and no factor", key), path, 0, "correlated", key,
+                          "the key of a factor", ""});
+      };
+      definition.design.correlated.push_back({find(0), find(1), pair.at("correlation").get<double>()});
     }
   } catch (const nlohmann::json::exception& error) {
     throw InputError({fmt::format("the file of the campaign was changed or is damaged: {}", error.what()), path, 0, "",
@@ -201,38 +237,55 @@ CampaignDefinition make_definition(const RunCampaignInput& input) {
                             &definition.run.vehicle, &definition.run.sensors}) {
     make_absolute(*name);
   }
+  for (std::string& setting : definition.run.settings) make_setting_absolute(setting);
   const scenarios::RunSpec spec = read_run(input.run);
+  campaigns::DesignInput& design = definition.design;
   const bool is_drawn = !input.drawn.empty() || !input.drawn_sd.empty();
-  definition.design.name = !input.design.empty() ? input.design : is_drawn ? campaigns::kMonteCarlo : campaigns::kGrid;
-  definition.design.factors = list_factors(input, spec);
-  definition.design.correlated =
-      list_correlated(definition.design.factors, input.axes.size() + input.drawn.size(), spec);
-  definition.design.points = input.points;
-  definition.design.seed = spec.seed;
-  definition.files = list_files(definition.run, spec);
-  const auto is_set = [&](const campaigns::Factor& factor) {
-    const auto sets = [&](const std::string& setting) { return setting.rfind(factor.key + "=", 0) == 0; };
-    return std::any_of(input.run.settings.begin(), input.run.settings.end(), sets);
-  };
-  for (const campaigns::Factor& factor : definition.design.factors) {
-    if (!is_set(factor)) continue;
-    throw InputError({fmt::format("'{}' is a factor and set", factor.key), "command line", 0, "--set", factor.key,
-                      "one of both", ""});
+  design.name = !input.design.empty() ? input.design : is_drawn ? campaigns::kMonteCarlo : campaigns::kGrid;
+  design.factors = list_factors(input, spec);
+  for (campaigns::Factor& factor : design.factors) {
+    for (std::string& value : factor.values) make_absolute_if_file(value);
   }
+  design.correlated = list_correlated(design.factors, input.axes.size() + input.drawn.size(), spec);
+  design.points = input.points;
+  design.seed = spec.seed;
+  require_once(input, design.factors);
   return definition;
 }
 
-void require_unchanged(const CampaignDefinition& definition, const std::string& path) {
-  if (definition.version != library_version()) {
-    throw InputError({fmt::format("the campaign was begun with rollrig {}; its results could differ from those of "
-                                  "rollrig {}",
-                                  definition.version, library_version()),
-                      path, 0, "rollrig", definition.version, "the same version, or a new campaign", ""});
+void require_same_version(const CampaignDefinition& definition, const std::string& path) {
+  if (definition.version == library_version()) return;
+  throw InputError({fmt::format("the campaign was begun with rollrig {}; its results could differ from those of "
+                                "rollrig {}",
+                                definition.version, library_version()),
+                    path, 0, "rollrig", definition.version, "the same version, or a new campaign", ""});
+}
+
+namespace {
+
+void require_same(const CampaignFile& file) {
+  if (calc_sha256(read_binary_file(file.path)) == file.sha256) return;
+  throw InputError({"the file has changed since the campaign was begun", file.path, 0, "", "",
+                    "the file as it was, or a new campaign", ""});
+}
+
+}  // namespace
+
+FileWatch::FileWatch(const std::vector<CampaignFile>& files) {
+  for (const CampaignFile& file : files) {
+    require_file(file.path);
+    known_.push_back({file, fs::last_write_time(file.path), fs::file_size(file.path)});  // before it is read
+    require_same(file);
   }
-  for (const CampaignFile& file : definition.files) {
-    if (calc_sha256(read_text_file(file.path)) == file.sha256) continue;
-    throw InputError({fmt::format("{} has changed since the campaign was begun", file.path), path, 0, "files", "",
-                      "the file as it was, or a new campaign", ""});
+}
+
+void FileWatch::require_unchanged() const {
+  for (const Known& known : known_) {
+    std::error_code error;
+    const bool is_same_time = fs::last_write_time(known.file.path, error) == known.time && !error;
+    if (is_same_time && fs::file_size(known.file.path, error) == known.size && !error) continue;
+    require_file(known.file.path);
+    require_same(known.file);
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 /// What a campaign is made of, as its campaign.json says it.
 
+#include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -28,11 +30,29 @@ struct CampaignDefinition {
   static CampaignDefinition read(const std::string& content, const std::string& path);
 };
 
-/// Everything that can be said before the first item is carried out: the first and the last item are read and
-/// prepared. Throws InputError.
+/// What `input` says, with its factors; without the files. Throws InputError.
 CampaignDefinition make_definition(const RunCampaignInput& input);
 
-/// Throws InputError where a file or the version of rollrig has changed since.
-void require_unchanged(const CampaignDefinition& definition, const std::string& path);
+/// Throws InputError where the program is of another version. `path` is for messages.
+void require_same_version(const CampaignDefinition& definition, const std::string& path);
+
+/// Whether the files of a campaign are what they were.
+class FileWatch {
+ public:
+  /// Throws InputError where a file has changed since the campaign was begun, or cannot be read.
+  explicit FileWatch(const std::vector<CampaignFile>& files);
+
+  /// The same, quickly: a file is read again only where its time or size has changed. Called from several threads.
+  void require_unchanged() const;
+
+ private:
+  struct Known {
+    CampaignFile file;
+    std::filesystem::file_time_type time;
+    std::uintmax_t size = 0;
+  };
+
+  std::vector<Known> known_;
+};
 
 }  // namespace rollrig

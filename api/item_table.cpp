@@ -7,6 +7,7 @@
 
 #include "campaigns/store.h"
 #include "scenarios/run/flat_results.h"
+#include "sim/core/error.h"
 #include "sim/core/parse_json.h"
 
 namespace rollrig {
@@ -19,16 +20,24 @@ Json read_result(const campaigns::Record& record) {
 
 }  // namespace
 
-ItemTable read_item_table(const std::vector<std::string>& files, const std::string& definition) {
+ItemTable read_item_table(const std::vector<std::string>& files, const std::string& definition, const RunItems& items) {
   scenarios::ResultFlattener flattener;
-  campaigns::read_records(files, definition, [&flattener](const campaigns::Record& record) {
+  std::vector<bool> is_known(items.count());  // a process may add records while this reads
+  campaigns::read_records(files, definition, [&](const campaigns::Record& record) {
+    if (record.item >= is_known.size()) {
+      throw InputError({fmt::format("the results have an item {} of {}", record.item + 1, is_known.size()),
+                        files.front(), 0, "", "", "items that the campaign has", ""});
+    }
+    is_known[record.item] = true;
     if (record.failure.empty()) flattener.learn_names(read_result(record));
   });
   ItemTable table;
   std::map<std::string, std::size_t> places;
   campaigns::read_records(files, definition, [&](const campaigns::Record& record) {
+    if (record.item >= is_known.size() || !is_known[record.item]) return;
     const std::size_t row = table.items.size();
     table.items.push_back(record.item);
+    table.values.push_back(items.calc_values(record.item));
     table.failures.push_back(record.failure);
     for (std::vector<double>& column : table.numbers) column.push_back(std::nan(""));
     if (!record.failure.empty()) return;

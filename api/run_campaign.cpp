@@ -6,17 +6,17 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <numeric>
 
 #include <boost/algorithm/string/replace.hpp>
 
 #include "api/campaign_definition.h"
 #include "api/item_table.h"
 #include "api/run_items.h"
+#include "api/sensitivity.h"
 #include "campaigns/items.h"
-#include "campaigns/sensitivity.h"
 #include "campaigns/store.h"
 #include "exports/tree.h"
+#include "report/sensitivity_page.h"
 #include "sim/core/columns.h"
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
@@ -35,73 +35,8 @@ std::string quote_word(const std::string& word) {
   return "'" + boost::algorithm::replace_all_copy(word, "'", "'\\''") + "'";
 }
 
-/// "0.31 (0.27 to 0.35)"
-std::string show(const campaigns::Index& index) {
-  return fmt::format("{:.3g} ({:.3g} to {:.3g})", index.value, index.low_95, index.high_95);
-}
-
-Json to_json(const campaigns::Index& index) {
-  return {{"value", index.value}, {"low_95", index.low_95}, {"high_95", index.high_95}};
-}
-
-/// Factors by the size of an index, the largest first.
-std::vector<std::size_t> order_by(const std::vector<campaigns::Index>& indices) {
-  std::vector<std::size_t> order(indices.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&indices](std::size_t a, std::size_t b) { return indices[a].value > indices[b].value; });
-  return order;
-}
-
-Report report_indices(const std::string& result, const campaigns::DesignInput& design,
-                      const campaigns::SobolIndexes& indices) {
-  Json json{{"format", "rollrig-sensitivity/1"}, {"result", result},     {"design", design.name},
-            {"points", indices.points},          {"mean", indices.mean}, {"sd", std::sqrt(indices.variance)},
-            {"factors", Json::array()}};
-  Table table{fmt::format("Sobol' indices of {}", result), {"factor", "by itself", "with others"}, {}};
-  for (const std::size_t f : order_by(indices.total)) {
-    json["factors"].push_back(
-        {{"key", design.factors[f].key}, {"first", to_json(indices.first[f])}, {"total", to_json(indices.total[f])}});
-    table.rows.push_back({design.factors[f].key, show(indices.first[f]), show(indices.total[f])});
-  }
-  Report report;
-  report.json = to_text(json) + "\n";
-  report.text =
-      format_table(table) +
-      wrap(fmt::format("Shares of the variance of {}, with intervals of 95 % from {} points. Mean {:.5g}, standard "
-                       "deviation {:.3g}.",
-                       result, indices.points, indices.mean, std::sqrt(indices.variance)),
-           0);
-  return report;
-}
-
-Report report_effects(const std::string& result, const campaigns::DesignInput& design,
-                      const campaigns::MorrisMeasures& measures) {
-  Json json{{"format", "rollrig-sensitivity/1"},
-            {"result", result},
-            {"design", design.name},
-            {"points", measures.points},
-            {"factors", Json::array()}};
-  Table table{fmt::format("Elementary effects on {}", result), {"factor", "mean size", "mean", "sd"}, {}};
-  for (const std::size_t f : order_by(measures.mean_size)) {
-    json["factors"].push_back({{"key", design.factors[f].key},
-                               {"mean_size", to_json(measures.mean_size[f])},
-                               {"mean", measures.mean[f]},
-                               {"sd", measures.deviation[f]}});
-    table.rows.push_back({design.factors[f].key, show(measures.mean_size[f]), fmt::format("{:+.3g}", measures.mean[f]),
-                          fmt::format("{:.3g}", measures.deviation[f])});
-  }
-  Report report;
-  report.json = to_text(json) + "\n";
-  report.text = format_table(table) +
-                wrap(fmt::format("Change of {} as a factor goes up by half of its probability, from {} trajectories.",
-                                 result, measures.points),
-                     0);
-  return report;
-}
-
-campaigns::Share to_share(const CampaignShare& share) { return {share.part, share.parts}; }
-CampaignShare from_share(const campaigns::Share& share) { return {share.part, share.parts}; }
+campaigns::Part to_part(const CampaignPart& part) { return {part.number, part.count}; }
+CampaignPart from_part(const campaigns::Part& part) { return {part.number, part.count}; }
 
 RunCampaignState make_state(const campaigns::Tally& tally, const std::string& of,
                             const std::vector<std::string>& running = {}) {
@@ -136,20 +71,20 @@ struct RunCampaign::Data {
     throw InputError({"the campaign has no results yet", folder.path, 0, "", "", "rollrig campaign run first", ""});
   }
 
-  ItemTable read_table() const { return read_item_table(list_filled_files(), folder.definition); }
+  ItemTable read_table() const { return read_item_table(list_filled_files(), folder.definition, items); }
 };
 
-CampaignShare read_campaign_share(const std::string& text) { return from_share(campaigns::read_share(text)); }
+CampaignPart read_campaign_part(const std::string& text) { return from_part(campaigns::read_part(text)); }
 
-std::optional<CampaignShare> find_campaign_share() {
-  const auto share = campaigns::find_share([](const char* name) -> const char* { return std::getenv(name); });
-  if (!share.has_value()) return std::nullopt;
-  return from_share(*share);
+std::optional<CampaignPart> find_campaign_part() {
+  const auto part = campaigns::find_part([](const char* name) -> const char* { return std::getenv(name); });
+  if (!part.has_value()) return std::nullopt;
+  return from_part(*part);
 }
 
 void define_run_campaign(const RunCampaignInput& input, const std::string& folder) {
-  const CampaignDefinition definition = make_definition(input);
-  RunItems(definition).check();
+  CampaignDefinition definition = make_definition(input);
+  definition.files = RunItems(definition).check();
   write_folder(folder, {{kFileName, definition.to_text()}});
 }
 
@@ -161,19 +96,20 @@ RunCampaign::RunCampaign(const std::string& folder) {
   }
   const std::string content = read_text_file(path);
   const CampaignDefinition definition = CampaignDefinition::read(content, path);
-  require_unchanged(definition, path);
   data_ = std::make_shared<Data>(Data{definition, RunItems(definition), {folder, content, definition.design.seed}});
 }
 
-RunCampaignState RunCampaign::carry_out(const CampaignShare& share, int threads, const Progress& progress) const {
+RunCampaignState RunCampaign::carry_out(const CampaignPart& part, int threads, const Progress& progress) const {
+  require_same_version(data_->definition, data_->path_of_definition());
+  RunItems items(data_->definition);
+  items.watch_files(data_->definition.files);
   const auto advance = [&progress](double done) {
     if (progress) progress(done, "");
   };
-  const campaigns::Tally tally =
-      campaigns::carry_out_items(data_->items, data_->folder, to_share(share), threads, advance);
-  const std::string of = share.parts == 1
+  const campaigns::Tally tally = campaigns::carry_out_items(items, data_->folder, to_part(part), threads, advance);
+  const std::string of = part.count == 1
                              ? data_->folder.path
-                             : fmt::format("{}, part {} of {}", data_->folder.path, share.part, share.parts);
+                             : fmt::format("{}, part {} of {}", data_->folder.path, part.number, part.count);
   return make_state(tally, of);
 }
 
@@ -186,16 +122,19 @@ RunCampaignState RunCampaign::merge() const {
   const std::vector<std::string> files = data_->list_filled_files();
   const std::string merged = (fs::path(data_->folder.path) / "results.sqlite").string();
   if (files == std::vector<std::string>{merged}) return read_state();
+  // What an earlier merge that was cut short has left there are records of this campaign, too.
   const std::string partial = merged + ".partial";
-  fs::remove(partial);
-  {
-    campaigns::Store store(partial, data_->folder.definition);
-    campaigns::read_records(files, data_->folder.definition,
-                            [&store](const campaigns::Record& record) { store.write(record); });
-  }
+  std::vector<bool> is_merged(data_->items.count());
+  campaigns::Store store(partial, data_->folder.definition);  // which only one merge at a time can open
+  campaigns::read_records(files, data_->folder.definition, [&](const campaigns::Record& record) {
+    store.write(record);
+    if (record.item < is_merged.size()) is_merged[record.item] = true;
+  });
+  store.close();
   fs::rename(partial, merged);
+  const auto has = [&is_merged](std::size_t item) { return item < is_merged.size() && is_merged[item]; };
   for (const std::string& file : files) {
-    if (file != merged) fs::remove(file);
+    if (file != merged) campaigns::remove_if_contained(file, has);
   }
   return read_state();
 }
@@ -209,7 +148,7 @@ std::string RunCampaign::make_csv() const {
   CsvWriter csv(columns);
   for (std::size_t row = 0; row < table.items.size(); ++row) {
     csv.add(std::to_string(table.items[row] + 1));
-    for (const std::string& value : data_->items.calc_values(table.items[row])) csv.add(value);
+    for (const std::string& value : table.values[row]) csv.add(value);
     for (const std::vector<double>& column : table.numbers) csv.add(CsvWriter::Rounded{column[row], 12});
     if (table.has_failures()) csv.add(table.failures[row]);
     csv.end_row();
@@ -229,8 +168,8 @@ Export RunCampaign::make_export() const {
   for (std::size_t f = 0; f < factors.size(); ++f) {
     exports::Texts texts;
     exports::Column values;
-    for (const std::size_t item : table.items) {
-      texts.push_back(data_->items.calc_values(item)[f]);
+    for (const std::vector<std::string>& of_item : table.values) {
+      texts.push_back(of_item[f]);
       if (const auto number = parse_number(texts.back())) values.push_back(*number);
     }
     if (values.size() == texts.size()) {
@@ -263,13 +202,30 @@ Report RunCampaign::calc_sensitivity(const std::string& result) const {
     problem.key = "--result";
     throw InputError(problem);
   }
-  const exports::Column& column = table.numbers[static_cast<std::size_t>(known - table.results.begin())];
+  const std::vector<double>& column = table.numbers[static_cast<std::size_t>(known - table.results.begin())];
   campaigns::ItemResults values(data_->items.count(), std::nan(""));
   for (std::size_t row = 0; row < table.items.size(); ++row) values[table.items[row]] = column[row];
-  return is_sobol
-             ? report_indices(result, design, campaigns::calc_sobol_indices(values, design.factors.size(), design.seed))
-             : report_effects(result, design,
-                              campaigns::calc_morris_measures(values, design.factors.size(), design.seed));
+  const std::size_t factors = design.factors.size();
+  const Sensitivity found =
+      is_sobol ? describe_indices(result, design, campaigns::calc_sobol_indices(values, factors, design.seed))
+               : describe_effects(result, design, campaigns::calc_morris_measures(values, factors, design.seed));
+  Report report;
+  report.json = to_text(found.json) + "\n";
+  report.text = format_table(found.table) + wrap(found.explanation, 0);
+  report.make_page = [data = data_, found, table, column] {
+    std::vector<report::FactorScatter> scatters;
+    for (const std::size_t f : found.order) {
+      constexpr std::size_t kMostCharts = 6;  // Assumed: the factors that matter
+      if (scatters.size() == kMostCharts) break;
+      report::FactorScatter scatter{data->definition.design.factors[f].key, {}, column};
+      for (const std::vector<std::string>& of_item : table.values) {
+        if (const auto number = parse_number(of_item[f])) scatter.values.push_back(*number);
+      }
+      if (scatter.values.size() == column.size()) scatters.push_back(scatter);
+    }
+    return report::make_html(report::make_sensitivity_page(found.json, found.table, found.explanation, scatters));
+  };
+  return report;
 }
 
 std::string RunCampaign::make_slurm_job(std::size_t tasks, const std::string& program) const {
@@ -283,9 +239,9 @@ std::string RunCampaign::make_slurm_job(std::size_t tasks, const std::string& pr
       "#SBATCH --ntasks=1\n"
       "#SBATCH --cpus-per-task=1\n"
       "#SBATCH --requeue\n"
-      "exec {} campaign run {} --threads \"$SLURM_CPUS_PER_TASK\" --quiet\n",
+      "exec {} campaign run {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads \"$SLURM_CPUS_PER_TASK\" --quiet\n",
       data_->items.count(), data_->definition.run.scenario_or_file, tasks, tasks, quote_word(program),
-      quote_word(folder));
+      quote_word(folder), tasks);
 }
 
 }  // namespace rollrig

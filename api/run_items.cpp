@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "api/data.h"
+#include "sim/core/file_io.h"
+#include "sim/core/text.h"
 
 namespace rollrig {
 
@@ -20,7 +22,8 @@ Json RunItems::carry_out(std::size_t item, std::uint64_t seed) const {
   return scenarios::run_scenario(read(calc_values(item), seed), {}).result;
 }
 
-void RunItems::check() const {
+std::vector<CampaignFile> RunItems::check() const {
+  const ReadRecorder recorder;
   const auto check_at = [this](const std::vector<std::string>& values) {
     const scenarios::RunSpec spec = read(values, 1);
     scenarios::prepare_run(spec);
@@ -29,11 +32,23 @@ void RunItems::check() const {
   if (std::all_of(factors_.begin(), factors_.end(), is_list)) {
     check_at(calc_values(0));
     check_at(calc_values(count() - 1));
-    return;
   }
   std::vector<std::string> medians;
   for (const campaigns::Factor& factor : factors_) medians.push_back(factor.calc_value(0.5));
   check_at(medians);
+  for (std::size_t f = 0; f < factors_.size(); ++f) {
+    for (const std::string& value : factors_[f].values) {
+      if (parse_number(value).has_value()) continue;
+      std::vector<std::string> values = medians;
+      values[f] = value;
+      check_at(values);
+    }
+  }
+  std::vector<CampaignFile> files;
+  for (const std::string& path : recorder.list_files()) {
+    files.push_back({path, calc_sha256(read_binary_file(path))});
+  }
+  return files;
 }
 
 scenarios::RunSpec RunItems::read(const std::vector<std::string>& values, std::uint64_t seed) const {

@@ -2,6 +2,7 @@
 /// The runs of a campaign as items.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,15 +17,22 @@ class RunItems : public campaigns::ItemList {
   /// Throws InputError for a design that cannot be made.
   explicit RunItems(const CampaignDefinition& definition);
 
+  /// Throws InputError where a file of the campaign has changed. To be called before the first item is carried out.
+  void watch_files(const std::vector<CampaignFile>& files) { watch_.emplace(files); }
+  void require_unchanged() const override {
+    if (watch_.has_value()) watch_->require_unchanged();
+  }
+
   std::size_t count() const override { return design_->count_items(); }
   Json describe(std::size_t item) const override;
   Json carry_out(std::size_t item, std::uint64_t seed) const override;
 
   /// The value of each factor.
   std::vector<std::string> calc_values(std::size_t item) const { return design_->calc_values(item); }
-  /// Throws InputError where no item can be carried out: of a grid for its first and its last item, of draws at the
-  /// median of each factor.
-  void check() const;
+  /// Reads and prepares items, and returns the files that were read: of a grid its first and its last item and one with
+  /// each word or path that a factor takes, of draws the item at the median of each factor. Throws InputError where one
+  /// of them cannot be carried out.
+  std::vector<CampaignFile> check() const;
 
  private:
   scenarios::RunSpec read(const std::vector<std::string>& values, std::uint64_t seed) const;
@@ -32,6 +40,7 @@ class RunItems : public campaigns::ItemList {
   RunInput run_;
   std::vector<campaigns::Factor> factors_;
   std::unique_ptr<campaigns::Design> design_;
+  std::optional<FileWatch> watch_;
 };
 
 }  // namespace rollrig

@@ -60,30 +60,30 @@ class Grid : public Design {
   std::vector<Factor> factors_;
 };
 
-/// A design whose items are points of the unit cube: shares of the factors' probability.
+/// A design whose items are points of the unit cube: a coordinate is the probability that the factor lies below.
 class UnitCube : public Design {
  public:
   explicit UnitCube(const DesignInput& input) : input_(input), root_(calc_root(input)) {}
 
   std::vector<std::string> calc_values(std::size_t item) const override {
-    std::vector<double> shares = calc_shares(item);
+    std::vector<double> probabilities = calc_probabilities(item);
     constexpr double kLeast = 1e-15;  // 0 and 1 are infinitely far away in a normal distribution
-    for (double& share : shares) share = std::clamp(share, kLeast, 1.0 - kLeast);
+    for (double& probability : probabilities) probability = std::clamp(probability, kLeast, 1.0 - kLeast);
     Eigen::VectorXd scores(root_.cols());
-    for (Eigen::Index f = 0; f < scores.size(); ++f) scores(f) = calc_score(shares[static_cast<std::size_t>(f)]);
+    for (Eigen::Index f = 0; f < scores.size(); ++f) scores(f) = calc_score(probabilities[static_cast<std::size_t>(f)]);
     if (scores.size() > 0) scores = root_ * scores;
     std::vector<std::string> values;
-    for (std::size_t f = 0; f < shares.size(); ++f) {
+    for (std::size_t f = 0; f < probabilities.size(); ++f) {
       const Factor& factor = input_.factors[f];
       const bool is_correlated = scores.size() > 0 && factor.kind == Factor::Kind::kNormal;
       values.push_back(is_correlated ? calc_normal_value(factor, scores(static_cast<Eigen::Index>(f)))
-                                     : factor.calc_value(shares[f]));
+                                     : factor.calc_value(probabilities[f]));
     }
     return values;
   }
 
  protected:
-  virtual std::vector<double> calc_shares(std::size_t item) const = 0;
+  virtual std::vector<double> calc_probabilities(std::size_t item) const = 0;
 
   std::size_t count_factors() const { return input_.factors.size(); }
   std::size_t count_points() const { return input_.points; }
@@ -102,11 +102,11 @@ class MonteCarlo : public UnitCube {
   std::size_t count_items() const override { return count_points(); }
 
  protected:
-  std::vector<double> calc_shares(std::size_t item) const override {
+  std::vector<double> calc_probabilities(std::size_t item) const override {
     RandomStream random(seed(), fmt::format("draws of item {}", item));
-    std::vector<double> shares(count_factors());
-    for (double& share : shares) share = random.uniform();
-    return shares;
+    std::vector<double> probabilities(count_factors());
+    for (double& probability : probabilities) probability = random.uniform();
+    return probabilities;
   }
 };
 
@@ -127,13 +127,13 @@ class LatinHypercube : public UnitCube {
   std::size_t count_items() const override { return count_points(); }
 
  protected:
-  std::vector<double> calc_shares(std::size_t item) const override {
+  std::vector<double> calc_probabilities(std::size_t item) const override {
     RandomStream random(seed(), fmt::format("place of item {} in its parts", item));
-    std::vector<double> shares;
+    std::vector<double> probabilities;
     for (const std::vector<std::uint32_t>& parts : parts_) {
-      shares.push_back((parts[item] + random.uniform()) / static_cast<double>(parts.size()));
+      probabilities.push_back((parts[item] + random.uniform()) / static_cast<double>(parts.size()));
     }
-    return shares;
+    return probabilities;
   }
 
  private:
@@ -156,12 +156,12 @@ class SobolPoints {
   std::vector<double> calc(std::size_t point) const {
     boost::random::sobol sequence(shift_.size());
     if (point > 0) sequence.seed(point - 1);  // Boost leaves the origin out, the sequence's first point
-    std::vector<double> shares;
+    std::vector<double> probabilities;
     for (const std::uint64_t shift : shift_) {
       const std::uint64_t coordinate = point > 0 ? sequence() : 0;
-      shares.push_back(static_cast<double>((coordinate ^ shift) >> 11U) * 0x1p-53);
+      probabilities.push_back(static_cast<double>((coordinate ^ shift) >> 11U) * 0x1p-53);
     }
-    return shares;
+    return probabilities;
   }
 
  private:
@@ -175,28 +175,28 @@ class Sobol : public UnitCube {
   std::size_t count_items() const override { return count_points(); }
 
  protected:
-  std::vector<double> calc_shares(std::size_t item) const override { return points_.calc(item); }
+  std::vector<double> calc_probabilities(std::size_t item) const override { return points_.calc(item); }
 
  private:
   SobolPoints points_;
 };
 
-class SobolIndices : public UnitCube {
+class SaltelliItems : public UnitCube {
  public:
-  explicit SobolIndices(const DesignInput& input) : UnitCube(input), points_(seed(), 2 * count_factors()) {}
+  explicit SaltelliItems(const DesignInput& input) : UnitCube(input), points_(seed(), 2 * count_factors()) {}
 
   std::size_t count_items() const override { return count_points() * (count_factors() + 2); }
 
  protected:
-  std::vector<double> calc_shares(std::size_t item) const override {
+  std::vector<double> calc_probabilities(std::size_t item) const override {
     const std::size_t factors = count_factors();
     const std::size_t matrix = item % (factors + 2);
     const std::vector<double> both = points_.calc(item / (factors + 2));
     const auto middle = both.begin() + static_cast<std::ptrdiff_t>(factors);
     if (matrix == 1) return {middle, both.end()};
-    std::vector<double> shares(both.begin(), middle);
-    if (matrix > 1) shares[matrix - 2] = both[factors + matrix - 2];
-    return shares;
+    std::vector<double> probabilities(both.begin(), middle);
+    if (matrix > 1) probabilities[matrix - 2] = both[factors + matrix - 2];
+    return probabilities;
   }
 
  private:
@@ -210,12 +210,13 @@ class Morris : public UnitCube {
   std::size_t count_items() const override { return count_points() * (count_factors() + 1); }
 
  protected:
-  std::vector<double> calc_shares(std::size_t item) const override {
+  std::vector<double> calc_probabilities(std::size_t item) const override {
     const std::size_t items = count_factors() + 1;
     const Trajectory trajectory = make_trajectory(seed(), item / items, count_factors());
-    std::vector<double> shares = trajectory.start;
-    for (std::size_t s = 0; s < item % items; ++s) shares[trajectory.order[s]] += kMorrisStep * trajectory.signs[s];
-    return shares;
+    std::vector<double> probabilities = trajectory.start;
+    for (std::size_t s = 0; s < item % items; ++s)
+      probabilities[trajectory.order[s]] += kMorrisStep * trajectory.signs[s];
+    return probabilities;
   }
 };
 
@@ -237,6 +238,9 @@ void check(const DesignInput& input) {
     const auto is_same = [&](const Factor& other) { return other.key == factor->key; };
     if (std::any_of(input.factors.begin(), factor, is_same)) {
       throw bad_design(fmt::format("'{}' is a factor twice", factor->key), "--draw", factor->key, "each factor once");
+    }
+    if (factor->kind == Factor::Kind::kValues && factor->values.empty()) {
+      throw bad_design(fmt::format("'{}' has no values", factor->key), "--vary", factor->key, "at least one value");
     }
     if (is_grid && factor->kind != Factor::Kind::kValues) {
       throw bad_design(fmt::format("a grid has values of '{}', and no distribution", factor->key), "--design", kGrid,
@@ -300,7 +304,7 @@ std::unique_ptr<Design> make_design(const DesignInput& input) {
   }
   if (input.name == kSobolIndices) {
     require_few({input.points, factors + 2});
-    return std::make_unique<SobolIndices>(input);
+    return std::make_unique<SaltelliItems>(input);
   }
   if (input.name == kMorris) {
     require_few({input.points, factors + 1});

@@ -37,14 +37,14 @@ struct DesignInput {
   std::vector<FactorPair> correlated = {};  // not for kGrid, kSobolIndices, kMorris
 };
 
-constexpr std::size_t kMostItems = 10'000'000;  // Assumed: a bit and a row of the database each
+constexpr std::size_t kMostItems = 10'000'000;  // Assumed: each needs a bit of memory and a row of a file
 
 /// Every value with every other: the last factor changes first.
 constexpr const char* kGrid = "grid";
 /// Independent draws; item i has a stream of random numbers of its own.
 constexpr const char* kMonteCarlo = "monte_carlo";
-/// Each factor's range is divided into as many parts of equal probability as there are points, and each part is met
-/// once. Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239.
+/// Each factor's range is divided into as many stretches of equal probability as there are points, and each stretch is
+/// met once; of correlated factors, only by the first. Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239.
 constexpr const char* kLatinHypercube = "latin_hypercube";
 /// Sobol' sequence with a random digital shift. Source: Sobol', USSR Comput. Math. Math. Phys. 7 (1967) 86; direction
 /// numbers of Joe and Kuo, as boost/random/sobol.hpp has them.
@@ -70,7 +70,7 @@ struct Trajectory {
 };
 Trajectory make_trajectory(std::uint64_t seed, std::size_t trajectory, std::size_t factors);
 
-/// Morris' levels lie in the middle of four parts of equal probability, and a step goes over two of them, so that a
+/// Morris' levels lie in the middle of four stretches of equal probability, and a step goes over two of them, so that a
 /// normal distribution has no infinite level.
 constexpr double kMorrisStep = 0.5;
 

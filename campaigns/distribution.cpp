@@ -24,16 +24,18 @@ InputError bad_factor(const std::string& text, const std::string& what,
 
 }  // namespace
 
-std::string Factor::calc_value(double share) const {
+std::string Factor::calc_value(double probability) const {
   if (kind == Kind::kValues) {
-    const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size()));
+    const auto place = static_cast<std::size_t>(probability * static_cast<double>(values.size()));
     return values[std::min(place, values.size() - 1)];
   }
-  if (kind == Kind::kNormal) return calc_normal_value(*this, calc_score(share));
-  return fmt::format("{:.12g}", first + share * (second - first));
+  if (kind == Kind::kNormal) return calc_normal_value(*this, calc_score(probability));
+  return fmt::format("{:.12g}", first + probability * (second - first));
 }
 
-double calc_score(double share) { return boost::math::quantile(boost::math::normal_distribution<double>(), share); }
+double calc_score(double probability) {
+  return boost::math::quantile(boost::math::normal_distribution<double>(), probability);
+}
 
 std::string calc_normal_value(const Factor& factor, double score) {
   return fmt::format("{:.12g}", factor.first + score * factor.second);

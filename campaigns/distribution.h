@@ -16,13 +16,14 @@ struct Factor {
   double first = 0.0;                    // kUniform: lower limit; kNormal: mean; in the unit of the key
   double second = 0.0;                   // kUniform: upper limit; kNormal: standard deviation
 
-  /// The value at a share of the probability, as a setting takes it. For a list, each value has the same probability.
-  /// Validity  0 < share < 1
-  std::string calc_value(double share) const;
+  /// The value below which the factor lies with a probability, as a setting takes it. Of a list, each value is equally
+  /// likely.
+  /// Validity  0 < probability < 1
+  std::string calc_value(double probability) const;
 };
 
-/// How many standard deviations above the mean a normal distribution has a share of its probability below it.
-double calc_score(double share);
+/// How many standard deviations above its mean a normal variable lies below with a probability.
+double calc_score(double probability);
 /// The value of a normal factor at so many standard deviations above the mean.
 std::string calc_normal_value(const Factor& factor, double score);
 

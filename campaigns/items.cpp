@@ -22,15 +22,15 @@ namespace fs = std::filesystem;
 namespace rollrig::campaigns {
 namespace {
 
-/// Beside the file of a share while a process writes it: nobody else can then read the file itself.
+/// Beside the file of a part while a process writes it: nobody else can then read the file itself.
 std::string progress_file_of(const std::string& results) { return results + ".progress"; }
 
 std::string calc_identity(const CampaignFolder& folder, const Json& description, std::uint64_t seed) {
   return calc_sha256(folder.definition + to_text(description, -1) + std::to_string(seed));
 }
 
-/// Carries out one item; a failure is what it came to.
-Record make_record(const ItemList& list, const CampaignFolder& folder, std::size_t item) {
+/// Carries out one item. That it failed is a result, too.
+Record carry_out_one(const ItemList& list, const CampaignFolder& folder, std::size_t item) {
   Record record;
   record.item = item;
   record.seed = calc_item_seed(folder.seed, item);
@@ -45,10 +45,11 @@ Record make_record(const ItemList& list, const CampaignFolder& folder, std::size
   } catch (const InputError& error) {  // such as a draw beyond what is allowed
     fail(error);
   }
+  list.require_unchanged();
   return record;
 }
 
-/// Says once a second how far a share is, and takes that away at the end.
+/// Says once a second what the file of a part has, and takes that away at the end.
 class ProgressFile {
  public:
   explicit ProgressFile(std::string path) : path_(std::move(path)) {}
@@ -63,7 +64,21 @@ class ProgressFile {
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return;
     next_ = now + std::chrono::seconds(1);
-    write_file_atomically(path_, to_text(Json{{"done", tally.done}, {"failed", tally.failed}}) + "\n");
+    try {
+      write_file_atomically(path_, to_text(Json{{"done", tally.done}, {"failed", tally.failed}}) + "\n");
+    } catch (const InputError&) {  // results are worth more than the word on how many there are
+    }
+  }
+
+  /// What a process says; nothing where it has just begun, or just ended.
+  static Tally read(const std::string& path) {
+    std::ifstream in(path);
+    const Json said = Json::parse(in, nullptr, false);
+    const auto read_count = [&said](const char* key) {
+      const bool is_count = said.is_object() && said.contains(key) && said[key].is_number_unsigned();
+      return is_count ? said[key].get<std::size_t>() : 0;
+    };
+    return {0, read_count("done"), read_count("failed")};
   }
 
  private:
@@ -75,40 +90,49 @@ class ProgressFile {
 struct DoneItems {
   std::vector<bool> is_done;
   std::vector<bool> has_failed;
+
+  explicit DoneItems(std::size_t items) : is_done(items), has_failed(items) {}
+
+  void add(const std::string& file, std::size_t item, bool failed) {
+    if (item >= is_done.size()) {
+      throw InputError(
+          {fmt::format("item {} of {}", item + 1, is_done.size()), file, 0, "", "", "items that the campaign has", ""});
+    }
+    is_done[item] = true;
+    has_failed[item] = failed;
+  }
+
+  void add(const CampaignFolder& folder, const std::string& file) {
+    read_items(file, folder.definition, [&](std::size_t item, bool failed) { add(file, item, failed); });
+  }
+
+  /// Of a part alone.
+  Tally count(const Part& part) const {
+    Tally tally{part.count_of(is_done.size()), 0, 0};
+    for (std::size_t item = part.number - 1; item < is_done.size(); item += part.count) {
+      if (is_done[item]) ++tally.done;
+      if (has_failed[item]) ++tally.failed;
+    }
+    return tally;
+  }
 };
 
-DoneItems list_done(const CampaignFolder& folder, std::size_t items, const std::vector<std::string>& files) {
-  DoneItems found{std::vector<bool>(items), std::vector<bool>(items)};
-  for (const std::string& file : files) {
-    read_items(file, folder.definition, [&](std::size_t item, bool has_failed) {
-      if (item >= items) {
-        throw InputError(
-            {fmt::format("item {} of {}", item + 1, items), file, 0, "", "", "items that the campaign has", ""});
-      }
-      found.is_done[item] = true;
-      found.has_failed[item] = has_failed;
-    });
-  }
-  return found;
-}
-
-/// The files that may have items of a share: its own, and those of other splits that nobody writes now. Other shares
-/// of the same split have none, and their processes are left alone.
-std::vector<std::string> list_relevant(const CampaignFolder& folder, const Share& share) {
-  std::vector<std::string> relevant;
-  const std::string own = folder.file_of(share);
+/// Files of other numbers of parts that nobody writes now. Other parts of the same number have no items of this one,
+/// and their processes are left alone.
+std::vector<std::string> list_other_splits(const CampaignFolder& folder, const Part& part) {
+  const std::string own = folder.file_of(part);
   const std::string same_split = own.substr(own.rfind("_of_"));
+  std::vector<std::string> others;
   for (const std::string& file : folder.list_files()) {
-    const bool is_sibling = file != own && boost::algorithm::ends_with(file, same_split);
-    if (!is_sibling && (file == own || !is_in_use(file))) relevant.push_back(file);
+    if (!boost::algorithm::ends_with(file, same_split) && !is_in_use(file)) others.push_back(file);
   }
-  return relevant;
+  return others;
 }
 
 }  // namespace
 
-std::string CampaignFolder::file_of(const Share& share) const {
-  return (fs::path(path) / fmt::format("results_{:04}_of_{:04}.sqlite", share.part, share.parts)).string();
+std::string CampaignFolder::file_of(const Part& part) const {
+  return (fs::path(path) / fmt::format("results_{:04}_of_{:04}.sqlite", part.number, part.count)).string();
 }
 
 std::vector<std::string> CampaignFolder::list_files() const {
@@ -125,31 +149,31 @@ std::uint64_t calc_item_seed(std::uint64_t campaign_seed, std::size_t item) {
   return std::strtoull(hash.substr(0, 8).c_str(), nullptr, 16) >> 1U;
 }
 
-Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Share& share, int threads,
+Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Part& part, int threads,
                       const std::function<void(double)>& advance) {
-  const DoneItems before = list_done(folder, list.count(), list_relevant(folder, share));
-  const std::string path = folder.file_of(share);
-  Tally tally{share.count(list.count()), 0, 0};
-  std::vector<std::size_t> open;
-  for (std::size_t item = share.part - 1; item < list.count(); item += share.parts) {
-    if (!before.is_done[item]) open.push_back(item);
-    if (before.is_done[item]) ++tally.done;
-    if (before.has_failed[item]) ++tally.failed;
-  }
-  if (open.empty()) return tally;
-  Tally own;  // of this file: what another process adds to those of the files that it can read
-  if (is_there(path)) {
-    read_items(path, folder.definition, [&own](std::size_t, bool has_failed) {
-      ++own.done;
-      if (has_failed) ++own.failed;
-    });
-  }
+  DoneItems done(list.count());
+  for (const std::string& file : list_other_splits(folder, part)) done.add(folder, file);
+  const std::string path = folder.file_of(part);
+  Tally tally = done.count(part);
+  if (tally.done == tally.items && !is_there(path)) return tally;
+  ProgressFile progress(progress_file_of(path));  // goes after the file is closed
   Store store(path, folder.definition);
-  ProgressFile progress(progress_file_of(path));
+  Tally own;  // of this file: `status` adds it to those of the files that it can read
+  store.list_items([&](std::size_t item, bool has_failed) {
+    done.add(path, item, has_failed);
+    ++own.done;
+    if (has_failed) ++own.failed;
+  });
+  tally = done.count(part);
+  progress.write(own);
+  std::vector<std::size_t> open;
+  for (std::size_t item = part.number - 1; item < list.count(); item += part.count) {
+    if (!done.is_done[item]) open.push_back(item);
+  }
   std::size_t finished = 0;
   std::mutex mutex;
   parallel_for(open.size(), threads, [&](std::size_t i) {
-    const Record record = make_record(list, folder, open[i]);
+    const Record record = carry_out_one(list, folder, open[i]);
     const std::lock_guard<std::mutex> lock(mutex);
     store.write(record);
     for (Tally* counts : {&tally, &own}) {
@@ -160,26 +184,25 @@ Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const 
     ++finished;
     if (advance) advance(static_cast<double>(finished) / static_cast<double>(open.size()));
   });
+  store.close();
   return tally;
 }
 
 FolderState read_state(const CampaignFolder& folder, std::size_t items) {
   FolderState state;
-  std::vector<std::string> at_rest;
-  for (const std::string& file : folder.list_files()) (is_in_use(file) ? state.running : at_rest).push_back(file);
-  const DoneItems done = list_done(folder, items, at_rest);
-  state.tally.items = items;
-  const auto count = [](const std::vector<bool>& flags) {
-    return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), true));
-  };
-  state.tally.done = count(done.is_done);
-  state.tally.failed = count(done.has_failed);
+  DoneItems done(items);
+  for (const std::string& file : folder.list_files()) {
+    if (is_in_use(file)) {
+      state.running.push_back(file);
+    } else {
+      done.add(folder, file);
+    }
+  }
+  state.tally = done.count({1, 1});
   for (const std::string& file : state.running) {
-    std::ifstream in(progress_file_of(file));
-    const Json said = Json::parse(in, nullptr, false);
-    if (!said.is_object()) continue;  // it has just begun, or just ended
-    state.tally.done += said.value("done", std::size_t{0});
-    state.tally.failed += said.value("failed", std::size_t{0});
+    const Tally said = ProgressFile::read(progress_file_of(file));
+    state.tally.done = std::min(items, state.tally.done + said.done);
+    state.tally.failed = std::min(items, state.tally.failed + said.failed);
   }
   return state;
 }

@@ -1,12 +1,12 @@
 #pragma once
-/// Carries out the items of a campaign: those that are not done yet, of one share of them.
+/// Carries out the items of a campaign: those that are not done yet, of one part of them.
 
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "campaigns/share.h"
+#include "campaigns/part.h"
 #include "sim/core/json.h"
 
 namespace rollrig::campaigns {
@@ -23,6 +23,9 @@ class ItemList {
   /// The result. Throws RunFailure or InputError for an item that cannot be carried out, Interrupted. Called from
   /// several threads.
   virtual Json carry_out(std::size_t item, std::uint64_t seed) const = 0;
+  /// Throws InputError where what the items are made from, such as a file, is no longer what it was. Called after each
+  /// item, before its result counts.
+  virtual void require_unchanged() const {}
 };
 
 /// Where a campaign is, and what it is.
@@ -31,8 +34,8 @@ struct CampaignFolder {
   std::string definition;  // content of its campaign.json
   std::uint64_t seed = 1;  // from which those of the items follow
 
-  /// The file of a share's results: "results_0003_of_0010.sqlite".
-  std::string file_of(const Share& share) const;
+  /// The file of a part's results: "results_0003_of_0010.sqlite".
+  std::string file_of(const Part& part) const;
   /// All files of results, by name.
   std::vector<std::string> list_files() const;
 };
@@ -47,10 +50,11 @@ struct Tally {
   std::size_t failed = 0;
 };
 
-/// Carries out the items of a share that no file of the folder has, and writes each as soon as it is done. `advance`
-/// is called after each item, with the share of these items that is done. Throws Interrupted, and InputError as Store
-/// does; what was done stays.
-Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Share& share, int threads,
+/// Carries out the items of a part that no file of the folder has, and writes each as soon as it is done. `advance` is
+/// called after each item, with the fraction of these items that is done. What another process does at the same time
+/// with another number of parts is not known, and may be done twice. Throws Interrupted, and InputError as Store and
+/// ItemList::require_unchanged() do; what was done stays.
+Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Part& part, int threads,
                       const std::function<void(double)>& advance = {});
 
 /// What is done of all items. Files that a process writes now are counted by what it says in `<file>.progress`.

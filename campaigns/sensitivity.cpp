@@ -15,6 +15,10 @@ namespace {
 
 constexpr std::size_t kResamplings = 1000;  // Assumed: enough for limits of 95 %
 
+InputError no_spread(const std::string& what) {
+  return InputError({what, "command line", 0, "--result", "", "a result that depends on the factors", ""});
+}
+
 /// Results of one point or trajectory, in the order of its items.
 using Row = std::vector<double>;
 
@@ -27,8 +31,12 @@ std::vector<Row> make_rows(const ItemResults& results, std::size_t items, std::s
     if (std::all_of(row.begin(), row.end(), [](double value) { return std::isfinite(value); })) rows.push_back(row);
   }
   if (rows.size() >= least) return rows;
-  throw InputError({fmt::format("too few {} to tell how sensitive the result is: {}", what, rows.size()), "", 0,
-                    "--points", "", fmt::format("at least {} of which all items have the result", least), ""});
+  throw InputError({fmt::format("too few {} to tell how sensitive the result is: {}", what, rows.size()),
+                    "command line", 0, "--result", "",
+                    fmt::format("at least {} of which all items have the result: rollrig campaign run "
+                                "where items are left, else a new campaign with more --points",
+                                least),
+                    ""});
 }
 
 /// Estimates of all factors from rows, some of which may be there several times.
@@ -46,12 +54,15 @@ std::vector<Index> estimate_with_intervals(const std::vector<Row>& rows, std::ui
       row = &rows[static_cast<std::size_t>(random.uniform() * static_cast<double>(rows.size()))];
     }
     const std::vector<double> values = estimate(chosen);
+    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) continue;
     for (std::size_t j = 0; j < values.size(); ++j) resampled[j].push_back(values[j]);
   }
   for (std::size_t j = 0; j < indices.size(); ++j) {
+    const std::size_t count = resampled[j].size();
+    if (count < kResamplings / 2) throw no_spread("the result differs in too few items");
     std::sort(resampled[j].begin(), resampled[j].end());
-    indices[j].low_95 = resampled[j][static_cast<std::size_t>(0.025 * kResamplings)];
-    indices[j].high_95 = resampled[j][static_cast<std::size_t>(0.975 * kResamplings) - 1];
+    indices[j].low_95 = resampled[j][count / 40];
+    indices[j].high_95 = resampled[j][count - 1 - count / 40];
   }
   return indices;
 }
@@ -75,7 +86,7 @@ Moments calc_moments(const std::vector<const Row*>& rows) {
 
 }  // namespace
 
-SobolIndexes calc_sobol_indices(const ItemResults& results, std::size_t factors, std::uint64_t seed) {
+SobolIndices calc_sobol_indices(const ItemResults& results, std::size_t factors, std::uint64_t seed) {
   const std::vector<Row> rows = make_rows(results, factors + 2, 16, "points");
   const Estimate first = [factors](const std::vector<const Row*>& chosen) {
     const Moments moments = calc_moments(chosen);
@@ -100,6 +111,9 @@ SobolIndexes calc_sobol_indices(const ItemResults& results, std::size_t factors,
   std::vector<const Row*> all;
   for (const Row& row : rows) all.push_back(&row);
   const Moments moments = calc_moments(all);
+  if (!(moments.variance > 1e-20 * moments.mean * moments.mean)) {  // Assumed: below it, differences are of rounding
+    throw no_spread("the result is the same in all items");
+  }
   return {rows.size(), moments.mean, moments.variance, estimate_with_intervals(rows, seed, first),
           estimate_with_intervals(rows, seed, total)};
 }

@@ -7,7 +7,8 @@
 
 namespace rollrig::campaigns {
 
-/// An estimate with its interval of 95 %, from resampling of the design's points (percentile bootstrap).
+/// An estimate with its interval of 95 %, from resampling of the design's points (percentile bootstrap). Resamples of
+/// which no estimate can be made are left out.
 struct Index {
   double value = 0.0;
   double low_95 = 0.0;
@@ -19,7 +20,7 @@ struct Index {
 using ItemResults = std::vector<double>;
 
 /// Sobol' indices of each factor.
-struct SobolIndexes {
+struct SobolIndices {
   std::size_t points = 0;    // those that count
   double mean = 0.0;         // of the result
   double variance = 0.0;     // V
@@ -29,12 +30,12 @@ struct SobolIndexes {
 
 /// For a design kSobolIndices, with f(A), f(B), f(AB_j) of point n:
 /// V = variance of f(A) and f(B) together; S_j = mean(f(B) (f(AB_j) - f(A))) / V, with f taken from its mean;
-/// T_j = mean((f(A) - f(AB_j))^2) / (2 V). Both are NaN where V is 0.
+/// T_j = mean((f(A) - f(AB_j))^2) / (2 V).
 /// Source    Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, table 2, (b) and (f)
 /// Validity  independent factors
-/// Errors    InputError: less than 16 points that count
+/// Errors    InputError: less than 16 points that count; a result that is the same in all or nearly all items
 /// Checked   tests/campaigns/sensitivity_test.cpp
-SobolIndexes calc_sobol_indices(const ItemResults& results, std::size_t factors, std::uint64_t seed);
+SobolIndices calc_sobol_indices(const ItemResults& results, std::size_t factors, std::uint64_t seed);
 
 /// Elementary effects of each factor, in the unit of the result.
 struct MorrisMeasures {

@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <map>
 
@@ -16,10 +17,16 @@ namespace {
 
 /// In the header of the file, by which `file` and others tell whose it is: "roll" in ASCII.
 constexpr int kApplication = 0x726f6c6c;
+/// How long to wait for a process that reads a file.
+constexpr int kPatience_ms = 2000;  // Assumed: reading takes less
+/// How long to wait before a file counts as being written.
+constexpr int kProbe_ms = 200;  // Assumed: another process that probes takes less
+constexpr std::chrono::seconds kBetweenSyncs{1};
 
-/// Calls `use`; what goes wrong with the file is told as an error of it.
+/// Calls `use`; what goes wrong with the file is told as an error of it. `busy` says what to do where another process
+/// writes the file.
 template <class Use>
-auto with_file(const std::string& path, const Use& use) {
+auto with_file(const std::string& path, const char* busy, const Use& use) {
   try {
     return use();
   } catch (const SQLite::Exception& error) {
@@ -28,7 +35,7 @@ auto with_file(const std::string& path, const Use& use) {
     std::string allowed = "a file that rollrig campaign has written, in a folder that can be written to";
     if (code == SQLITE_BUSY) {
       what = "another process works on this part of the campaign";
-      allowed = "one process for each part: --shard I/N, each with its own I";
+      allowed = busy;
     } else if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) {
       what = "this is no file of a campaign's results, or it is damaged";
       allowed = "a file that rollrig campaign has written; without it, its items are carried out again";
@@ -39,8 +46,8 @@ auto with_file(const std::string& path, const Use& use) {
   }
 }
 
-/// How long to wait for a process that reads a file.
-constexpr int kPatience_ms = 2000;  // Assumed: reading takes less
+constexpr const char* kOnePartEach = "one process for each part: --shard I/N, each with its own I";
+constexpr const char* kWait = "to wait until the process has ended; see rollrig campaign status";
 
 /// Opens a file for this process alone. In this mode, set before the file is first read, SQLite needs no memory that
 /// is shared between processes.
@@ -50,23 +57,53 @@ SQLite::Database open_alone(const std::string& path, int flags, int patience_ms 
   return database;
 }
 
+/// Takes the log of a file into it.
+void take_log_in(SQLite::Database& database) { database.exec("PRAGMA journal_mode = DELETE"); }
+
 /// Whether a file has a log: a process writes it, or was killed as it did.
 bool has_log(const std::string& path) { return is_there(path + "-wal"); }
 
-/// Opens a file to read it, beside others. What a killed process has left in the log is taken into the file first.
+/// Opens a file to read it, beside others that read it. What a killed process has left in the log is taken into the
+/// file first.
 SQLite::Database open_to_read(const std::string& path) {
-  if (has_log(path)) return open_alone(path, SQLite::OPEN_READWRITE);
+  if (has_log(path)) {
+    SQLite::Database database = open_alone(path, SQLite::OPEN_READWRITE);
+    take_log_in(database);
+  }
   return SQLite::Database(path, SQLite::OPEN_READONLY, kPatience_ms);
 }
 
-void require_definition(SQLite::Database& database, const std::string& path, const std::string& definition) {
+/// Whether the file has its tables: not where a process was killed as it made the file. Throws InputError where they
+/// are another campaign's.
+bool has_tables(SQLite::Database& database, const std::string& path, const std::string& definition) {
+  if (!database.tableExists("campaign")) return false;
   SQLite::Statement query(database, "SELECT definition FROM campaign");
-  if (query.executeStep() && query.getColumn(0).getString() == definition) return;
+  if (query.executeStep() && query.getColumn(0).getString() == definition) return true;
   throw InputError(
       {"the results are those of another campaign", path, 0, "", "", "results of the campaign.json beside them", ""});
 }
 
-Record make_record(SQLite::Statement& row) {
+void make_tables(SQLite::Database& database, const std::string& definition) {
+  SQLite::Transaction all(database);
+  database.exec(fmt::format("PRAGMA application_id = {}", kApplication));
+  database.exec("CREATE TABLE campaign (definition TEXT NOT NULL)");
+  database.exec(
+      "CREATE TABLE items (item INTEGER PRIMARY KEY, identity TEXT NOT NULL, seed INTEGER NOT NULL, "
+      "result TEXT NOT NULL, failure TEXT NOT NULL)");
+  SQLite::Statement insert(database, "INSERT INTO campaign VALUES (?)");
+  insert.bind(1, definition);
+  insert.exec();
+  all.commit();
+}
+
+void take_items(SQLite::Database& database, const std::function<void(std::size_t item, bool has_failed)>& take) {
+  SQLite::Statement query(database, "SELECT item, failure <> '' FROM items ORDER BY item");
+  while (query.executeStep()) {
+    take(static_cast<std::size_t>(query.getColumn(0).getInt64()), query.getColumn(1).getInt() != 0);
+  }
+}
+
+Record read_row(SQLite::Statement& row) {
   Record record;
   record.item = static_cast<std::size_t>(row.getColumn(0).getInt64());
   record.identity = row.getColumn(1).getString();
@@ -76,50 +113,64 @@ Record make_record(SQLite::Statement& row) {
   return record;
 }
 
+/// Puts the records of a file from item `first` on, before item `end`, to those of other files.
+void add_records(const std::string& path, std::int64_t first, std::int64_t end, std::map<std::size_t, Record>& block) {
+  SQLite::Database file = open_to_read(path);
+  if (!file.tableExists("items")) return;
+  SQLite::Statement query(file, "SELECT * FROM items WHERE item >= ? AND item < ? ORDER BY item");
+  query.bind(1, first);
+  query.bind(2, end);
+  while (query.executeStep()) {
+    const Record record = read_row(query);
+    const auto [known, is_new] = block.emplace(record.item, record);
+    const bool is_same = known->second.identity == record.identity && known->second.result == record.result &&
+                         known->second.failure == record.failure;
+    if (is_new || is_same) continue;
+    throw InputError({fmt::format("item {} has another result than in another file of the campaign", record.item + 1),
+                      path, 0, "", "", "results of one program on machines of one kind", ""});
+  }
+}
+
 }  // namespace
 
 struct Store::Database {
   std::string path;
   SQLite::Database file;
   std::unique_ptr<SQLite::Statement> insert = {};
+  std::chrono::steady_clock::time_point next_sync = {};
 };
 
 Store::Store(const std::string& path, const std::string& definition) {
-  with_file(path, [&] {
-    const bool is_new = !is_there(path);
+  with_file(path, kOnePartEach, [&] {
     database_ =
         std::make_unique<Database>(Database{path, open_alone(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)});
     SQLite::Database& file = database_->file;
     file.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
-    if (is_new || !file.tableExists("items")) {
-      SQLite::Transaction all(file);
-      file.exec(fmt::format("PRAGMA application_id = {}", kApplication));
-      file.exec("CREATE TABLE campaign (definition TEXT NOT NULL)");
-      file.exec(
-          "CREATE TABLE items (item INTEGER PRIMARY KEY, identity TEXT NOT NULL, seed INTEGER NOT NULL, "
-          "result TEXT NOT NULL, failure TEXT NOT NULL)");
-      SQLite::Statement insert(file, "INSERT INTO campaign VALUES (?)");
-      insert.bind(1, definition);
-      insert.exec();
-      all.commit();
-    }
-    require_definition(file, path, definition);
+    if (!has_tables(file, path, definition)) make_tables(file, definition);
+    // An item that another file had, and that was carried out again, has the same record.
     database_->insert =
         std::make_unique<SQLite::Statement>(file, "INSERT OR REPLACE INTO items VALUES (?, ?, ?, ?, ?)");
   });
 }
 
 Store::~Store() {
-  if (database_ == nullptr || database_->insert == nullptr) return;
   try {
-    database_->insert.reset();
-    database_->file.exec("PRAGMA journal_mode = DELETE");  // all in one file, which can be read without being written
-  } catch (const SQLite::Exception&) {                     // all records are in the file and its log
+    close();
+  } catch (const InputError&) {  // all records are in the file and its log
   }
 }
 
+void Store::close() {
+  if (database_ == nullptr) return;
+  with_file(database_->path, kOnePartEach, [this] {
+    database_->insert.reset();
+    take_log_in(database_->file);
+  });
+  database_.reset();  // which lets go of the file
+}
+
 void Store::write(const Record& record) {
-  with_file(database_->path, [&] {
+  with_file(database_->path, kOnePartEach, [&] {
     SQLite::Statement& insert = *database_->insert;
     insert.bind(1, static_cast<std::int64_t>(record.item));
     insert.bindNoCopy(2, record.identity);
@@ -128,14 +179,22 @@ void Store::write(const Record& record) {
     insert.bindNoCopy(5, record.failure);
     insert.exec();
     insert.reset();
+    const auto now = std::chrono::steady_clock::now();
+    if (now < database_->next_sync) return;
+    database_->file.exec("PRAGMA wal_checkpoint(PASSIVE)");  // which waits for the disk
+    database_->next_sync = now + kBetweenSyncs;
   });
+}
+
+void Store::list_items(const std::function<void(std::size_t item, bool has_failed)>& take) const {
+  with_file(database_->path, kOnePartEach, [&] { take_items(database_->file, take); });
 }
 
 bool is_in_use(const std::string& path) {
   if (!has_log(path)) return false;
   try {
-    SQLite::Database file = open_alone(path, SQLite::OPEN_READWRITE, 0);
-    file.tableExists("items");
+    SQLite::Database file = open_alone(path, SQLite::OPEN_READWRITE, kProbe_ms);
+    take_log_in(file);
     return false;
   } catch (const SQLite::Exception& error) {
     return error.getErrorCode() == SQLITE_BUSY;
@@ -144,13 +203,9 @@ bool is_in_use(const std::string& path) {
 
 void read_items(const std::string& path, const std::string& definition,
                 const std::function<void(std::size_t item, bool has_failed)>& take) {
-  with_file(path, [&] {
+  with_file(path, kWait, [&] {
     SQLite::Database file = open_to_read(path);
-    require_definition(file, path, definition);
-    SQLite::Statement query(file, "SELECT item, failure <> '' FROM items ORDER BY item");
-    while (query.executeStep()) {
-      take(static_cast<std::size_t>(query.getColumn(0).getInt64()), query.getColumn(1).getInt() != 0);
-    }
+    if (has_tables(file, path, definition)) take_items(file, take);
   });
 }
 
@@ -160,34 +215,30 @@ void read_records(const std::vector<std::string>& paths, const std::string& defi
   constexpr std::int64_t kBlock = 20000;  // Assumed: some 20 MB of records
   std::int64_t last = -1;
   for (const std::string& path : paths) {
-    with_file(path, [&] {
+    with_file(path, kWait, [&] {
       SQLite::Database file = open_to_read(path);
-      require_definition(file, path, definition);
+      if (!has_tables(file, path, definition)) return;
       last = std::max(last, file.execAndGet("SELECT ifnull(max(item), -1) FROM items").getInt64());
     });
   }
   for (std::int64_t first = 0; first <= last; first += kBlock) {
     std::map<std::size_t, Record> block;
     for (const std::string& path : paths) {
-      with_file(path, [&] {
-        SQLite::Database file = open_to_read(path);
-        SQLite::Statement query(file, "SELECT * FROM items WHERE item >= ? AND item < ? ORDER BY item");
-        query.bind(1, first);
-        query.bind(2, first + kBlock);
-        while (query.executeStep()) {
-          const Record record = make_record(query);
-          const auto [known, is_new] = block.emplace(record.item, record);
-          const bool is_same = known->second.identity == record.identity && known->second.result == record.result &&
-                               known->second.failure == record.failure;
-          if (is_new || is_same) continue;
-          throw InputError(
-              {fmt::format("item {} came out otherwise than in another file of the campaign", record.item + 1), path, 0,
-               "", "", "results of one program on machines of one kind", ""});
-        }
-      });
+      with_file(path, kWait, [&] { add_records(path, first, first + kBlock, block); });
     }
     for (const auto& [item, record] : block) take(record);
   }
+}
+
+void remove_if_contained(const std::string& path, const std::function<bool(std::size_t item)>& has) {
+  with_file(path, kWait, [&] {
+    SQLite::Database file = open_alone(path, SQLite::OPEN_READWRITE);
+    take_log_in(file);
+    bool is_contained = true;
+    const auto check = [&](std::size_t item, bool /*has_failed*/) { is_contained = is_contained && has(item); };
+    if (file.tableExists("items")) take_items(file, check);
+    if (is_contained) std::filesystem::remove(path);  // while nobody else can open it
+  });
 }
 
 }  // namespace rollrig::campaigns

@@ -1,6 +1,6 @@
 #pragma once
 /// What came out of a campaign's items, in files of SQLite: one file for each process that works, which alone writes
-/// it. Nothing is ever changed in it, only added.
+/// it.
 
 #include <cstdint>
 #include <functional>
@@ -19,23 +19,29 @@ struct Record {
   std::string failure;  // why; empty where it did not fail
 };
 
-/// A file of records.
+/// A file of records that this process writes.
 ///
-/// Kept as a write-ahead log in exclusive locking mode: each record is safe from a kill of the process once write()
-/// has returned, and from a loss of power some seconds later; no memory is shared with other processes, so that the
-/// file may be on a network drive; a second process that opens it is refused.
+/// It is kept as a write-ahead log in exclusive locking mode. A record is safe from a kill of the process once write()
+/// has returned, and from a loss of power about a second later. No memory is shared with other processes, so that the
+/// file may be on a network drive whose locks work. A second process that opens it is refused.
 /// Source   sqlite.org/wal.html, "Use of WAL Without Shared-Memory"
 class Store {
  public:
   /// Opens a file, or makes it. `definition` says what the campaign is. Throws InputError: the file is another
   /// campaign's, is no such file, cannot be written, or another process has it open.
   Store(const std::string& path, const std::string& definition);
+  /// As close(), without a word where that fails: all records are then in the file and its log.
   ~Store();
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
   /// Throws InputError where it cannot be written, such as on a full disk.
   void write(const Record& record);
+  /// Calls `take` for each item that the file has.
+  void list_items(const std::function<void(std::size_t item, bool has_failed)>& take) const;
+  /// Takes the log into the file, which then stands alone. Throws InputError where that cannot be. Nothing can be
+  /// written afterwards.
+  void close();
 
  private:
   struct Database;
@@ -45,13 +51,17 @@ class Store {
 /// Whether a process writes the file now.
 bool is_in_use(const std::string& path);
 
-/// Calls `take` for each record of the files in order of their items, once for each item. Throws InputError: as Store
-/// does, and where two files have different records of one item.
+/// Calls `take` for each record of the files in order of their items, once for each item. Throws InputError: a file is
+/// another campaign's, is no such file, is written by a process now; two files have different records of one item.
 void read_records(const std::vector<std::string>& paths, const std::string& definition,
                   const std::function<void(const Record&)>& take);
 
-/// The items of a file with whether each of them failed, without the rest of their records, in their order.
+/// Calls `take` for each item of a file in order, with whether it failed. Throws InputError as read_records() does.
 void read_items(const std::string& path, const std::string& definition,
                 const std::function<void(std::size_t item, bool has_failed)>& take);
+
+/// Removes a file of which `has` has every item; one with a further item stays. Throws InputError where a process
+/// writes it now.
+void remove_if_contained(const std::string& path, const std::function<bool(std::size_t item)>& has);
 
 }  // namespace rollrig::campaigns

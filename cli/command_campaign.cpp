@@ -66,20 +66,20 @@ int new_campaign_command(const NewCampaignOptions& options) {
 }
 
 /// As asked for, else as a batch system or a launcher says, else all.
-CampaignShare choose_share(const std::string& asked) {
-  if (!asked.empty()) return read_campaign_share(asked);
-  return find_campaign_share().value_or(CampaignShare{});
+CampaignPart choose_part(const std::string& asked) {
+  if (!asked.empty()) return read_campaign_part(asked);
+  return find_campaign_part().value_or(CampaignPart{});
 }
 
 int campaign_run_command(const CampaignRunOptions& options) {
   const RunCampaign campaign(options.folder);
-  const CampaignShare share = choose_share(options.shard);
+  const CampaignPart part = choose_part(options.shard);
   Output output(options.output);
   RunCampaignState state;
   try {
     ProgressLine progress("campaign", options.output.quiet,
                           options.has_program_progress ? ProgressReader::kProgram : ProgressReader::kPerson);
-    state = campaign.carry_out(share, options.threads, progress.callback());
+    state = campaign.carry_out(part, options.threads, progress.callback());
   } catch (const Interrupted&) {
     std::cerr << wrap("stopped: what was done is kept; the same command goes on", 2).substr(2);
     return kInterrupted;
@@ -178,7 +178,7 @@ void add_campaign_command(CLI::App& app, Action& action) {
   add_new_campaign(*campaign, action);
   {
     const auto [command, options] = add_command<CampaignRunOptions>(
-        *campaign, action, "run", "Carry out what is not done, of all or of a share; also after an interruption",
+        *campaign, action, "run", "Carry out what is not done, of all items or of a part; also after an interruption",
         &campaign_run_command);
     command->alias("resume");
     add_folder(*command, *options);
@@ -186,7 +186,7 @@ void add_campaign_command(CLI::App& app, Action& action) {
                         "I/N: part I of N parts [what Slurm, Grid Engine, srun or mpirun says, else all]");
     add_threads(*command, options->threads);
     command->add_flag("--progress", options->has_program_progress,
-                      "Each second a line of JSON on standard error: the share that is done, and the seconds left");
+                      "Each second a line of JSON on standard error: the part that is done, and the seconds left");
     add_json(*command, options->output, "File for the counts of items, - for standard output");
   }
   {
@@ -217,6 +217,7 @@ void add_campaign_command(CLI::App& app, Action& action) {
     add_folder(*command, *options);
     command->add_option("--result", options->result, "A result, by its name in the exported table")->required();
     add_json(*command, options->output, "File for the indices, - for standard output");
+    add_html_option(*command, options->output.html);
   }
   {
     const auto [command, options] = add_command<SlurmOptions>(

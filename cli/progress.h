@@ -9,8 +9,8 @@
 
 namespace rollrig::cli {
 
-/// Who reads the progress: a person, or a program, which gets a line of JSON each second:
-/// {"done":0.31,"seconds_left":12.3}
+/// Who reads the progress: a person, or a program, which gets lines of JSON, at most one a second and one at the end:
+/// {"done":0.3100,"seconds_left":12.3}
 enum class ProgressReader { kPerson, kProgram };
 
 /// Writes to standard error. On a terminal, it updates one line, from 2 s on. Elsewhere, as in the log of a CI job, it

@@ -1,10 +1,10 @@
 #pragma once
-/// What Ceres says by itself.
+/// What Ceres logs by itself.
 
 namespace rollrig::estimation {
 
-/// From now on Ceres writes nothing to standard error: what it says of a step or of the data, an error or an answer of
-/// rollrig says. May be called from any thread, as often as one likes.
+/// From now on Ceres logs nothing below a fatal error to standard error: rollrig reports what matters of it. May be
+/// called from any thread, any number of times.
 void quiet_solver();
 
 }  // namespace rollrig::estimation

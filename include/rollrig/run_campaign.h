@@ -1,6 +1,6 @@
 #pragma once
 /// A campaign of runs: one scenario with many sets of values, carried out by one process or by many, at once or in
-/// several goes, with the same results to the bit. docs/campaigns.md.
+/// several sessions, with the same results to the bit. docs/campaigns.md.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,19 +30,19 @@ struct RunCampaignInput {
 
 std::vector<std::string> campaign_designs();
 
-/// Which items a process carries out: part 1 to `parts`.
-struct CampaignShare {
-  std::size_t part = 1;
-  std::size_t parts = 1;
+/// Which items a process carries out: part `number` of `count`, from 1.
+struct CampaignPart {
+  std::size_t number = 1;
+  std::size_t count = 1;
 };
 
 /// "3/10". Throws InputError.
-CampaignShare read_campaign_share(const std::string& text);
+CampaignPart read_campaign_part(const std::string& text);
 /// What Slurm, Grid Engine, mpirun or srun says in the environment; none where the process was started by itself.
 /// Throws InputError.
-std::optional<CampaignShare> find_campaign_share();
+std::optional<CampaignPart> find_campaign_part();
 
-/// How far a campaign, or a share of it, is.
+/// How far a campaign, or a part of it, is.
 struct RunCampaignState : Report {
   std::size_t items = 0;
   std::size_t done = 0;  // with those that failed
@@ -56,16 +56,17 @@ void define_run_campaign(const RunCampaignInput& input, const std::string& folde
 /// A campaign in its folder.
 class RunCampaign {
  public:
-  /// Throws InputError: the folder holds no campaign, or what the campaign was made of has changed since: a file, or
-  /// the version of rollrig.
+  /// Throws InputError: the folder holds no campaign.
   explicit RunCampaign(const std::string& folder);
 
-  /// Carries out what is not done of a share. Each result is kept as soon as it is there, so that an interruption
-  /// loses only what is being computed. Throws InputError where another process works on the share, Interrupted.
-  RunCampaignState carry_out(const CampaignShare& share, int threads = 0, const Progress& progress = {}) const;
+  /// Carries out what is not done of a part. Each result is kept as soon as it is there, so that an interruption
+  /// loses only what is being computed. Throws InputError where another process works on the part, and where a file or
+  /// the version of rollrig has changed since the campaign was begun; Interrupted.
+  RunCampaignState carry_out(const CampaignPart& part, int threads = 0, const Progress& progress = {}) const;
   /// What all processes have done up to now.
   RunCampaignState read_state() const;
-  /// Puts all results into one file, and takes the others away. Throws InputError where a process still works.
+  /// Puts all results into one file, and takes the others away. Throws InputError where a process still works; no
+  /// result is lost then.
   RunCampaignState merge() const;
 
   /// All items that are done, in their order: item, values, results, failure. Throws InputError where none is.
@@ -74,7 +75,7 @@ class RunCampaign {
   /// How much of a result's spread comes from which factor, for the designs sobol_indices and morris.
   /// Throws InputError: another design, an unknown result, too few items.
   Report calc_sensitivity(const std::string& result) const;
-  /// A job for Slurm's sbatch: an array of `tasks` tasks, each of which carries out a share. `program` is how the tasks
+  /// A job for Slurm's sbatch: an array of `tasks` tasks, each of which carries out a part. `program` is how the tasks
   /// call rollrig.
   std::string make_slurm_job(std::size_t tasks, const std::string& program) const;
 

@@ -13,6 +13,7 @@
 #include <set>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -40,12 +41,15 @@ FilesRead& files_read() {
   return files;
 }
 
+thread_local ReadRecorder* innermost_recorder = nullptr;
+
 void note_as_read(const std::string& path) {
   std::error_code code;
   const fs::path canonical = fs::canonical(path, code);
   if (code) return;
   const std::lock_guard<std::mutex> lock(files_read().mutex);
   files_read().paths.insert(canonical);
+  if (innermost_recorder != nullptr) innermost_recorder->add(canonical.string());
 }
 
 }  // namespace
@@ -164,6 +168,13 @@ bool was_read(const std::string& path) {
     std::error_code code;
     return fs::equivalent(read, path, code);
   });
+}
+
+ReadRecorder::ReadRecorder() : outer_(std::exchange(innermost_recorder, this)) {}
+
+ReadRecorder::~ReadRecorder() {
+  innermost_recorder = outer_;
+  if (outer_ != nullptr) outer_->paths_.insert(paths_.begin(), paths_.end());
 }
 
 std::string calc_sha256(const std::string& content) {

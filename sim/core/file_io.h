@@ -37,6 +37,22 @@ bool is_there(const std::string& path);
 /// Whether read_text_file() has read this very file, by whatever name, since the program started.
 bool was_read(const std::string& path);
 
+/// The files that this thread reads while the object is there, by absolute path without links, in order of their names.
+class ReadRecorder {
+ public:
+  ReadRecorder();
+  ~ReadRecorder();
+  ReadRecorder(const ReadRecorder&) = delete;
+  ReadRecorder& operator=(const ReadRecorder&) = delete;
+
+  std::vector<std::string> list_files() const { return {paths_.begin(), paths_.end()}; }
+  void add(const std::string& path) { paths_.insert(path); }
+
+ private:
+  std::set<std::string> paths_;
+  ReadRecorder* outer_;  // which records them, too
+};
+
 /// The path of the same folder whose name is nearest to that of `path`, which is not there; empty when none is near.
 std::string nearest_file(const std::string& path);
 

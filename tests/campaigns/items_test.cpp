@@ -70,7 +70,7 @@ TEST_CASE("every item is carried out once, and a failure is its result", "[fast]
   CHECK(list.count_carried_out() == 50);
 }
 
-TEST_CASE("shares, interruptions and other splits come to the same results", "[fast]") {
+TEST_CASE("parts, interruptions and other splits come to the same results", "[fast]") {
   const TemporaryFolder at;
   const CampaignFolder folder{at.path(), "test", 11};
   for (const int most : {5, 1, 0, 8}) {
@@ -123,4 +123,41 @@ TEST_CASE("items have seeds of their own, which no split changes", "[fast]") {
   CHECK(calc_item_seed(1, 0) != calc_item_seed(1, 1));
   CHECK(calc_item_seed(1, 0) != calc_item_seed(2, 0));
   CHECK(calc_item_seed(1, 0) < (std::uint64_t{1} << 31U));
+}
+
+TEST_CASE("a file of a process that was killed as it made it is empty", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  std::ofstream(folder.file_of({1, 1})).flush();
+  CHECK(read_state(folder, 50).tally.done == 0);
+  CHECK(carry_out_items(FakeItems(), folder, {1, 1}, 1).done == 50);
+  CHECK(read_all(folder) == read_undisturbed());
+}
+
+TEST_CASE("a file that has a further item is not removed", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  const std::string file = folder.file_of({1, 1});
+  carry_out_items(FakeItems(), folder, {1, 1}, 1);
+  remove_if_contained(file, [](std::size_t item) { return item != 30; });
+  CHECK(folder.list_files().size() == 1);
+  {
+    const Store writer(file, "test");
+    CHECK_THROWS_AS(remove_if_contained(file, [](std::size_t) { return true; }), rollrig::InputError);
+  }
+  remove_if_contained(file, [](std::size_t) { return true; });
+  CHECK(folder.list_files().empty());
+}
+
+TEST_CASE("items stop where what they are made from changes", "[fast]") {
+  class Changing : public FakeItems {
+   public:
+    void require_unchanged() const override {
+      if (count_carried_out() > 10) throw rollrig::InputError({"the file has changed", "tire.toml", 0, "", "", "", ""});
+    }
+  };
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  CHECK_THROWS_AS(carry_out_items(Changing(), folder, {1, 1}, 1), rollrig::InputError);
+  CHECK(read_state(folder, 50).tally.done == 10);
 }

@@ -24,7 +24,7 @@ for _ in $(seq 1 600); do
   [ ! -e four/results_0002_of_0004.sqlite.progress ] || break
   sleep 0.05
 done
-kill -9 "$(pgrep -f "campaign run four" | tail -1)"
+kill -9 "$(pgrep -P "$launcher" -f "campaign run four" | tail -1)"
 wait "$launcher" && { echo "mpirun did not notice that a process was killed"; exit 1; }
 "$program" campaign status four
 "$program" campaign status four --json - | grep -q '"done": 201' && { echo "all was done before the kill"; exit 1; }

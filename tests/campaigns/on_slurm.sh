@@ -82,7 +82,7 @@ runs="iso_28580 --tire a50 --vary ambient_degC=20:30:0.05 --vary pressure_kPa=21
 "$program" campaign slurm array --tasks 10 >job.sh
 job=$(sbatch --parsable --output="$work/task_%a.log" job.sh)
 wait_for "ls array/results_0001_of_0010.sqlite.progress"
-kill -9 "$(pgrep -f "campaign run .*array" | head -1)"
+kill -9 "$(pgrep -f "campaign run '?$work/array" | head -1)"
 echo "killed one task of job $job"
 wait_for "squeue -h -j $job -t all -o '%K %T' | grep -E 'FAILED|COMPLETED'"
 for task in $(squeue -h -j "$job" -t FAILED -o '%A'); do

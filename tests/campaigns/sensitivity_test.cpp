@@ -49,7 +49,7 @@ TEST_CASE("Sobol' indices of the Ishigami function lie in their intervals", "[fa
   const double total[] = {(v1 + v13) / v, v2 / v, v13 / v};
   for (const std::uint64_t seed : {1, 2, 3}) {
     const DesignInput input{kSobolIndices, make_factors(-kPi, kPi), 1024, seed};
-    const SobolIndexes indices = calc_sobol_indices(evaluate(input, ishigami), 3, seed);
+    const SobolIndices indices = calc_sobol_indices(evaluate(input, ishigami), 3, seed);
     CHECK(indices.points == 1024);
     CHECK(indices.mean == Approx(3.5).epsilon(0.03));
     CHECK(indices.variance == Approx(v).epsilon(0.05));
@@ -68,10 +68,15 @@ TEST_CASE("points that lack a result are left out", "[fast]") {
   const DesignInput input{kSobolIndices, make_factors(0.0, 1.0), 64, 4};
   ItemResults results = evaluate(input, [](const std::vector<double>& x) { return 2.0 * x[0] + x[1]; });
   results[7] = std::nan("");  // of the second point
-  const SobolIndexes indices = calc_sobol_indices(results, 3, 4);
+  const SobolIndices indices = calc_sobol_indices(results, 3, 4);
   CHECK(indices.points == 63);
   CHECK(indices.total[0].value == Approx(0.8).margin(0.1));
   CHECK(indices.total[2].value == 0.0);
+  for (double& result : results) result = 3.0;
+  CHECK_THROWS_AS(calc_sobol_indices(results, 3, 4), rollrig::InputError);
+  results[5] = 4.0;  // f(A) of the second point; in many resamples no point differs
+  const SobolIndices of_one = calc_sobol_indices(results, 3, 4);
+  for (const Index& index : of_one.first) CHECK((std::isfinite(index.low_95) && std::isfinite(index.high_95)));
   for (double& result : results) result = std::nan("");
   CHECK_THROWS_AS(calc_sobol_indices(results, 3, 4), rollrig::InputError);
 }

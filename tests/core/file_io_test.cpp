@@ -110,3 +110,19 @@ TEST_CASE("names that the system does not follow are errors of the input", "[fas
   CHECK_FALSE(is_there(temporary.file("none")));
   CHECK(is_there(temporary.path()));
 }
+
+TEST_CASE("files are recorded while a recorder is there, and by those around it", "[fast]") {
+  const tests::TemporaryFolder temporary;
+  for (const char* name : {"a", "b", "c"}) tests::write_file(temporary.file(name), "text");
+  const auto path_of = [&temporary](const char* name) { return fs::canonical(temporary.file(name)).string(); };
+  read_text_file(temporary.file("a"));
+  const ReadRecorder outer;
+  read_text_file(temporary.file("b"));
+  {
+    const ReadRecorder inner;
+    read_text_file(temporary.file("c"));
+    read_text_file(temporary.file("c"));
+    CHECK(inner.list_files() == std::vector<std::string>{path_of("c")});
+  }
+  CHECK(outer.list_files() == std::vector<std::string>{path_of("b"), path_of("c")});
+}

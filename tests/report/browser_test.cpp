@@ -1,6 +1,8 @@
 // Pages of every command in headless Chromium, from file://: no message on the console, nothing asked of a network,
 // charts drawn in pixels, the slider moves the animation, first paint within two seconds, no larger than three
 // megabytes.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -80,6 +82,19 @@ TEST_CASE("page of two hours with ten rows a second", "[slow]") {
 TEST_CASE("page of a sweep", "[slow]") {
   check_command(TemporaryFolder(), "sweep iso_28580 --tire a50 --fidelity quasi_static --vary pressure_kPa=210:310:50",
                 "--charts 3");
+}
+
+TEST_CASE("pages of the sensitivity of a result", "[slow]") {
+  for (const char* design : {"sobol_indices", "morris"}) {
+    const TemporaryFolder folder;
+    const std::string factors =
+        "--draw ambient_degC=uniform:20:30 --draw pressure_kPa=normal:250:5 --draw tire.bounded.loss_N=normal:33.8:0.3";
+    const std::string made = fmt::format(
+        "campaign new c iso_28580 --tire a50 --fidelity quasi_static --design {} --points 20 {}", design, factors);
+    REQUIRE(run_program(made, folder.path()).status == 0);
+    REQUIRE(run_program("campaign run c", folder.path()).status == 0);
+    check_command(folder, "campaign sensitivity c --result rrc_N_per_kN", "--charts 4");
+  }
 }
 
 TEST_CASE("pages of tires, sets and runs whose names hold a script", "[slow]") {

@@ -1,5 +1,5 @@
 // Shares: all items once, whatever starts the processes.
-#include "campaigns/share.h"
+#include "campaigns/part.h"
 
 #include <catch2/catch.hpp>
 #include <map>
@@ -9,46 +9,46 @@
 
 namespace {
 
-using rollrig::campaigns::find_share;
-using rollrig::campaigns::read_share;
-using rollrig::campaigns::Share;
+using rollrig::campaigns::find_part;
+using rollrig::campaigns::Part;
+using rollrig::campaigns::read_part;
 
 using Variables = std::map<std::string, std::string>;
 
-std::optional<Share> find_in(const Variables& variables) {
-  return find_share([&variables](const char* name) -> const char* {
+std::optional<Part> find_in(const Variables& variables) {
+  return find_part([&variables](const char* name) -> const char* {
     const auto found = variables.find(name);
     return found == variables.end() ? nullptr : found->second.c_str();
   });
 }
 
-/// Whether the shares have each item once, and as many as they say.
-void require_partition(const std::vector<Share>& shares) {
+/// Whether the parts have each item once, and as many as they say.
+void require_partition(const std::vector<Part>& parts) {
   constexpr std::size_t kItems = 101;
   std::vector<int> taken(kItems);
-  for (const Share& share : shares) {
+  for (const Part& part : parts) {
     std::size_t count = 0;
     for (std::size_t item = 0; item < kItems; ++item) {
-      if (!share.has(item)) continue;
+      if (!part.has(item)) continue;
       ++taken[item];
       ++count;
     }
-    CHECK(share.count(kItems) == count);
+    CHECK(part.count_of(kItems) == count);
   }
   CHECK(taken == std::vector<int>(kItems, 1));
 }
 
 }  // namespace
 
-TEST_CASE("a share is I of N", "[fast]") {
-  CHECK(read_share("3/10").part == 3);
-  CHECK(read_share("3/10").parts == 10);
+TEST_CASE("a part is I of N", "[fast]") {
+  CHECK(read_part("3/10").number == 3);
+  CHECK(read_part("3/10").count == 10);
   for (const char* text : {"", "3", "0/3", "4/3", "1/0", "a/b", "1.5/3", "1/", "/2", "1/2/3", "-1/3", "1/1e99"}) {
-    CHECK_THROWS_AS(read_share(text), rollrig::InputError);
+    CHECK_THROWS_AS(read_part(text), rollrig::InputError);
   }
 }
 
-TEST_CASE("a process that was started by itself has no share", "[fast]") {
+TEST_CASE("a process that was started by itself has no part", "[fast]") {
   CHECK(!find_in({}).has_value());
   CHECK(!find_in({{"SGE_TASK_ID", "undefined"}}).has_value());
   // The script of a job for several tasks, before srun.
@@ -56,7 +56,7 @@ TEST_CASE("a process that was started by itself has no share", "[fast]") {
 }
 
 TEST_CASE("the tasks of a job array have all items once", "[fast]") {
-  std::vector<Share> slurm;
+  std::vector<Part> slurm;
   for (const char* id : {"5", "8", "11", "14"}) {
     slurm.push_back(*find_in({{"SLURM_ARRAY_TASK_ID", id},
                               {"SLURM_ARRAY_TASK_MIN", "5"},
@@ -64,7 +64,7 @@ TEST_CASE("the tasks of a job array have all items once", "[fast]") {
                               {"SLURM_ARRAY_TASK_STEP", "3"}}));
   }
   require_partition(slurm);
-  std::vector<Share> grid_engine;
+  std::vector<Part> grid_engine;
   for (const char* id : {"1", "2", "3"}) {
     grid_engine.push_back(
         *find_in({{"SGE_TASK_ID", id}, {"SGE_TASK_FIRST", "1"}, {"SGE_TASK_LAST", "3"}, {"SGE_TASK_STEPSIZE", "1"}}));
@@ -73,8 +73,8 @@ TEST_CASE("the tasks of a job array have all items once", "[fast]") {
 }
 
 TEST_CASE("processes of one launcher have all items once, and those of a job array, too", "[fast]") {
-  std::vector<Share> mpi;
-  std::vector<Share> both;
+  std::vector<Part> mpi;
+  std::vector<Part> both;
   for (int rank = 0; rank < 3; ++rank) {
     mpi.push_back(*find_in({{"OMPI_COMM_WORLD_RANK", std::to_string(rank)}, {"OMPI_COMM_WORLD_SIZE", "3"}}));
     for (const char* id : {"0", "1"}) {
@@ -92,6 +92,12 @@ TEST_CASE("processes of one launcher have all items once, and those of a job arr
 TEST_CASE("what a batch system cannot mean is refused", "[fast]") {
   CHECK_THROWS_AS(find_in({{"SLURM_ARRAY_TASK_ID", "one"}}), rollrig::InputError);
   CHECK_THROWS_AS(find_in({{"SLURM_ARRAY_TASK_ID", "9"}, {"SLURM_ARRAY_TASK_MIN", "1"}, {"SLURM_ARRAY_TASK_MAX", "3"}}),
+                  rollrig::InputError);
+  // "--array=1,3,7": parts 2, 4, 5 and 6 would never be carried out.
+  CHECK_THROWS_AS(find_in({{"SLURM_ARRAY_TASK_ID", "3"},
+                           {"SLURM_ARRAY_TASK_MIN", "1"},
+                           {"SLURM_ARRAY_TASK_MAX", "7"},
+                           {"SLURM_ARRAY_TASK_COUNT", "3"}}),
                   rollrig::InputError);
   CHECK_THROWS_AS(find_in({{"PMI_RANK", "3"}, {"PMI_SIZE", "3"}}), rollrig::InputError);
 }

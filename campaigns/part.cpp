@@ -1,4 +1,4 @@
-#include "campaigns/share.h"
+#include "campaigns/part.h"
 
 #include <fmt/format.h>
 
@@ -25,37 +25,42 @@ std::optional<std::size_t> read_count(const Environment& environment, const char
                     "what the batch system sets, or --shard I/N", ""});
 }
 
-Share make_share(const char* name, std::size_t part, std::size_t parts) {
+Part make_part(const char* name, std::size_t part, std::size_t parts) {
   if (part >= 1 && part <= parts && static_cast<double>(parts) <= kMostParts) return {part, parts};
   throw InputError({fmt::format("the variable {} says part {} of {}", name, part, parts), "environment", 0, name, "",
                     "what the batch system sets, or --shard I/N", ""});
 }
 
 /// Of a job array whose tasks are numbered from `first` to `last`, `step` apart.
-Share make_array_share(const char* name, std::size_t id, std::size_t first, std::size_t last, std::size_t step) {
+Part make_array_part(const char* name, std::size_t id, std::size_t first, std::size_t last, std::size_t step) {
   step = std::max<std::size_t>(step, 1);
-  if (id < first || last < first) return make_share(name, 0, 0);
-  return make_share(name, (id - first) / step + 1, (last - first) / step + 1);
+  if (id < first || last < first) return make_part(name, 0, 0);
+  return make_part(name, (id - first) / step + 1, (last - first) / step + 1);
 }
 
-std::optional<Share> find_array_share(const Environment& environment) {
+std::optional<Part> find_array_part(const Environment& environment) {
   if (const auto id = read_count(environment, "SLURM_ARRAY_TASK_ID")) {
     const std::size_t first = read_count(environment, "SLURM_ARRAY_TASK_MIN").value_or(0);
     const std::size_t last = read_count(environment, "SLURM_ARRAY_TASK_MAX").value_or(*id);
-    return make_array_share("SLURM_ARRAY_TASK_ID", *id, first, last,
-                            read_count(environment, "SLURM_ARRAY_TASK_STEP").value_or(1));
+    const Part part = make_array_part("SLURM_ARRAY_TASK_ID", *id, first, last,
+                                      read_count(environment, "SLURM_ARRAY_TASK_STEP").value_or(1));
+    const std::size_t tasks = read_count(environment, "SLURM_ARRAY_TASK_COUNT").value_or(part.count);
+    if (tasks == part.count) return part;
+    throw InputError({fmt::format("the job array has gaps: {} tasks, numbered up to {}", tasks, last), "environment", 0,
+                      "SLURM_ARRAY_TASK_COUNT", std::to_string(tasks),
+                      "--array=1-N; or --shard I/N, to carry out some parts alone", ""});
   }
   if (const auto id = read_count(environment, "SGE_TASK_ID")) {
-    return make_array_share("SGE_TASK_ID", *id, read_count(environment, "SGE_TASK_FIRST").value_or(1),
-                            read_count(environment, "SGE_TASK_LAST").value_or(*id),
-                            read_count(environment, "SGE_TASK_STEPSIZE").value_or(1));
+    return make_array_part("SGE_TASK_ID", *id, read_count(environment, "SGE_TASK_FIRST").value_or(1),
+                           read_count(environment, "SGE_TASK_LAST").value_or(*id),
+                           read_count(environment, "SGE_TASK_STEPSIZE").value_or(1));
   }
   return std::nullopt;
 }
 
 /// Of the processes that one launcher has started. mpirun and srun stand before the batch job's own variables, which
 /// are also there in a job's script, where a program runs once.
-std::optional<Share> find_process_share(const Environment& environment) {
+std::optional<Part> find_process_part(const Environment& environment) {
   struct Launcher {
     const char* rank;
     const char* size;
@@ -64,33 +69,33 @@ std::optional<Share> find_process_share(const Environment& environment) {
        {Launcher{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, Launcher{"PMI_RANK", "PMI_SIZE"}}) {
     const auto rank = read_count(environment, launcher.rank);
     const auto size = read_count(environment, launcher.size);
-    if (rank.has_value() && size.has_value()) return make_share(launcher.rank, *rank + 1, *size);
+    if (rank.has_value() && size.has_value()) return make_part(launcher.rank, *rank + 1, *size);
   }
   // srun alone sets SLURM_STEP_NUM_TASKS to the number of processes that it has started.
   const auto rank = read_count(environment, "SLURM_PROCID");
   const auto size = read_count(environment, "SLURM_STEP_NUM_TASKS");
-  if (rank.has_value() && size.has_value()) return make_share("SLURM_PROCID", *rank + 1, *size);
+  if (rank.has_value() && size.has_value()) return make_part("SLURM_PROCID", *rank + 1, *size);
   return std::nullopt;
 }
 
 }  // namespace
 
-Share read_share(const std::string& text) {
+Part read_part(const std::string& text) {
   const std::size_t slash = text.find('/');
   const std::optional<double> part = parse_number(text.substr(0, slash));
   const std::optional<double> parts = slash == std::string::npos ? std::nullopt : parse_number(text.substr(slash + 1));
   const bool is_share = part.has_value() && parts.has_value() && is_count(*part) && is_count(*parts) && *part >= 1.0 &&
                         *part <= *parts && *parts <= kMostParts;
   if (is_share) return {static_cast<std::size_t>(*part), static_cast<std::size_t>(*parts)};
-  throw InputError({fmt::format("--shard '{}' is no share", text), "command line", 0, "--shard", text,
+  throw InputError({fmt::format("--shard '{}' is no part", text), "command line", 0, "--shard", text,
                     fmt::format("I/N with 1 <= I <= N <= {:.0f}, as 3/10", kMostParts), ""});
 }
 
-std::optional<Share> find_share(const Environment& environment) {
-  const std::optional<Share> array = find_array_share(environment);
-  const std::optional<Share> process = find_process_share(environment);
+std::optional<Part> find_part(const Environment& environment) {
+  const std::optional<Part> array = find_array_part(environment);
+  const std::optional<Part> process = find_process_part(environment);
   if (!array.has_value() || !process.has_value()) return array.has_value() ? array : process;
-  return Share{(array->part - 1) + array->parts * (process->part - 1) + 1, array->parts * process->parts};
+  return Part{(array->number - 1) + array->count * (process->number - 1) + 1, array->count * process->count};
 }
 
 }  // namespace rollrig::campaigns

@@ -1,0 +1,36 @@
+#pragma once
+/// Which part of a campaign's items a process carries out.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace rollrig::campaigns {
+
+/// Part `number` of `count` parts, from 1. It has the items number - 1, number - 1 + count, number - 1 + 2 count, ...
+/// Neighboring items, which often take equally long, thus go to different processes.
+struct Part {
+  std::size_t number = 1;
+  std::size_t count = 1;
+
+  bool has(std::size_t item) const { return item % count == number - 1; }
+  /// Of so many items, how many it has.
+  std::size_t count_of(std::size_t items) const { return items / count + (items % count >= number ? 1 : 0); }
+};
+
+/// "3/10" as --shard has it. Throws InputError.
+Part read_part(const std::string& text);
+
+/// Looks up a variable of the environment; null where there is none, as getenv().
+using Environment = std::function<const char*(const char*)>;
+
+/// The part that a batch system or an MPI launcher gives this process: of a job array (SLURM_ARRAY_TASK_ID with _MIN,
+/// _MAX, _STEP, _COUNT; SGE_TASK_ID with _FIRST, _LAST, _STEPSIZE), of the processes of one launcher (SLURM_PROCID with
+/// SLURM_STEP_NUM_TASKS; OMPI_COMM_WORLD_RANK, PMI_RANK with _SIZE), or of both: each task of the array then divides
+/// its part among its processes. None where the process was started by itself.
+/// Source   sbatch(1), srun(1), mpirun(1), qsub(1)
+/// Errors   InputError: a variable that is no number, a number beyond what it counts, a job array with gaps
+std::optional<Part> find_part(const Environment& environment);
+
+}  // namespace rollrig::campaigns

@@ -1,0 +1,25 @@
+#pragma once
+/// Page of `rollrig campaign sensitivity`.
+
+#include <string>
+#include <vector>
+
+#include "report/page.h"
+#include "sim/core/columns.h"
+
+namespace rollrig::report {
+
+/// The values that a factor took in the items of a campaign, and the result of each.
+struct FactorScatter {
+  std::string key;
+  std::vector<double> values;   // in the unit of the key
+  std::vector<double> results;  // as long
+};
+
+/// Of the document of rollrig-sensitivity/1: the index of each factor as bars with its interval, a table, and the
+/// result over the factors of `scatters`, of which the first 1000 points each are drawn: all designs fill the space
+/// evenly from their beginning.
+Page make_sensitivity_page(const Json& sensitivity, const Table& table, const std::string& explanation,
+                           const std::vector<FactorScatter>& scatters);
+
+}  // namespace rollrig::report
