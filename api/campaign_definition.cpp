@@ -9,6 +9,7 @@
 #include <boost/algorithm/string/split.hpp>
 
 #include "api/data.h"
+#include "campaigns/items.h"
 #include "rollrig/version.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
@@ -132,7 +133,7 @@ void make_absolute(std::string& name) {
 /// Likewise a value that is the path of a file, such as the speed trace of follow_drum.
 void make_absolute_if_file(std::string& value) {
   std::error_code none;
-  if (fs::is_regular_file(value, none)) value = fs::absolute(value).string();
+  if (!parse_number(value).has_value() && fs::is_regular_file(value, none)) value = fs::absolute(value).string();
 }
 
 /// "key=value" likewise.
@@ -145,7 +146,7 @@ void make_setting_absolute(std::string& setting) {
 }
 
 /// Throws InputError where a factor is given in another way, too.
-void require_once(const RunCampaignInput& input, const std::vector<campaigns::Factor>& factors) {
+void require_given_once(const RunCampaignInput& input, const std::vector<campaigns::Factor>& factors) {
   ConfigTable file;
   if (fs::path(input.run.scenario_or_file).extension() == ".toml") file = read_config(input.run.scenario_or_file);
   const auto is_overridden = [&file](const std::string& key) {
@@ -160,7 +161,10 @@ void require_once(const RunCampaignInput& input, const std::vector<campaigns::Fa
     return true;
   };
   for (const campaigns::Factor& factor : factors) {
-    const auto sets = [&](const std::string& setting) { return setting.rfind(factor.key + "=", 0) == 0; };
+    const auto sets = [&](const std::string& setting) {  // it, or a table that holds it
+      const std::string key = setting.substr(0, setting.find('='));
+      return key == factor.key || factor.key.rfind(key + ".", 0) == 0;
+    };
     if (std::any_of(input.run.settings.begin(), input.run.settings.end(), sets)) {
       throw InputError({fmt::format("'{}' is both a factor and given by --set", factor.key), "command line", 0, "--set",
                         factor.key, "either --set or the factor", ""});
@@ -193,6 +197,17 @@ std::string CampaignDefinition::to_text() const {
   return rollrig::to_text(json) + "\n";
 }
 
+namespace {
+
+std::size_t read_count(const Json& json, const char* key, const std::string& path) {
+  const Json& value = json.at(key);
+  if (value.is_number_unsigned()) return value.get<std::size_t>();
+  throw InputError(
+      {fmt::format("'{}' is no whole number", key), path, 0, key, value.dump(), "a whole number, >= 0", ""});
+}
+
+}  // namespace
+
 CampaignDefinition CampaignDefinition::read(const std::string& content, const std::string& path) {
   const Json json = parse_json(content, path);
   CampaignDefinition definition;
@@ -206,10 +221,14 @@ CampaignDefinition CampaignDefinition::read(const std::string& content, const st
       const auto found = json.at("run").find(key);
       if (found != json.at("run").end()) found->get_to(value);
     });
+    if (json.at("files").empty() || definition.run.scenario_or_file.empty()) {
+      throw InputError({"the file of the campaign says no scenario or no files", path, 0, "files", "",
+                        "what rollrig campaign new writes", ""});
+    }
     for (const Json& file : json.at("files")) definition.files.push_back({file.at("path"), file.at("sha256")});
     definition.design.name = json.at("design").get<std::string>();
-    definition.design.points = json.value("points", std::size_t{0});
-    definition.design.seed = json.at("seed").get<std::uint64_t>();
+    definition.design.points = json.contains("points") ? read_count(json, "points", path) : 0;
+    definition.design.seed = read_count(json, "seed", path);
     for (const Json& factor : json.at("factors")) definition.design.factors.push_back(read_factor(factor));
     for (const Json& pair : json.value("correlated", Json::array())) {
       const auto find = [&](std::size_t place) {
@@ -239,6 +258,10 @@ CampaignDefinition make_definition(const RunCampaignInput& input) {
   }
   for (std::string& setting : definition.run.settings) make_setting_absolute(setting);
   const scenarios::RunSpec spec = read_run(input.run);
+  // Assets by their paths: their names may stand for other files where and when an item is carried out.
+  definition.run.tire = fs::absolute(spec.tire.path).string();
+  if (spec.scenario->has_rig()) definition.run.rig = fs::absolute(spec.rig.path).string();
+  if (spec.vehicle.has_value()) definition.run.vehicle = fs::absolute(spec.vehicle->path).string();
   campaigns::DesignInput& design = definition.design;
   const bool is_drawn = !input.drawn.empty() || !input.drawn_sd.empty();
   design.name = !input.design.empty() ? input.design : is_drawn ? campaigns::kMonteCarlo : campaigns::kGrid;
@@ -249,7 +272,7 @@ CampaignDefinition make_definition(const RunCampaignInput& input) {
   design.correlated = list_correlated(design.factors, input.axes.size() + input.drawn.size(), spec);
   design.points = input.points;
   design.seed = spec.seed;
-  require_once(input, design.factors);
+  require_given_once(input, design.factors);
   return definition;
 }
 
@@ -265,8 +288,8 @@ namespace {
 
 void require_same(const CampaignFile& file) {
   if (calc_sha256(read_binary_file(file.path)) == file.sha256) return;
-  throw InputError({"the file has changed since the campaign was begun", file.path, 0, "", "",
-                    "the file as it was, or a new campaign", ""});
+  throw campaigns::CampaignChanged({"the file has changed since the campaign was begun", file.path, 0, "", "",
+                                    "the file as it was, or a new campaign", ""});
 }
 
 }  // namespace
@@ -276,6 +299,15 @@ FileWatch::FileWatch(const std::vector<CampaignFile>& files) {
     require_file(file.path);
     known_.push_back({file, fs::last_write_time(file.path), fs::file_size(file.path)});  // before it is read
     require_same(file);
+  }
+}
+
+void FileWatch::require_known(const std::vector<std::string>& paths) const {
+  for (const std::string& path : paths) {
+    const auto is_same = [&path](const Known& known) { return known.file.path == path; };
+    if (std::any_of(known_.begin(), known_.end(), is_same)) continue;
+    throw campaigns::CampaignChanged({"the campaign would read a file that it did not read when it was begun", path, 0,
+                                      "", "", "the files of campaign.json; or a new campaign", ""});
   }
 }
 

@@ -44,6 +44,9 @@ class FileWatch {
 
   /// The same, quickly: a file is read again only where its time or size has changed. Called from several threads.
   void require_unchanged() const;
+  /// Throws CampaignChanged for a file that is none of them, such as a tire of the same name in another folder of
+  /// assets.
+  void require_known(const std::vector<std::string>& paths) const;
 
  private:
   struct Known {

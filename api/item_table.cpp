@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "campaigns/store.h"
+#include "exports/tree.h"
 #include "scenarios/run/flat_results.h"
 #include "sim/core/error.h"
 #include "sim/core/parse_json.h"
@@ -33,6 +35,8 @@ ItemTable read_item_table(const std::vector<std::string>& files, const std::stri
   });
   ItemTable table;
   std::map<std::string, std::size_t> places;
+  std::set<std::string> names{"item", "failure"};  // of columns
+  for (const std::string& key : items.list_keys()) names.insert(key);
   campaigns::read_records(files, definition, [&](const campaigns::Record& record) {
     if (record.item >= is_known.size() || !is_known[record.item]) return;
     const std::size_t row = table.items.size();
@@ -45,7 +49,7 @@ ItemTable read_item_table(const std::vector<std::string>& files, const std::stri
     for (const auto& [key, value] : flat.items()) {
       const auto [place, is_new] = places.emplace(key, table.results.size());
       if (is_new) {
-        table.results.push_back(key);
+        table.results.push_back(exports::take_name(key, names));
         table.numbers.emplace_back(row + 1, std::nan(""));
       }
       table.numbers[place->second][row] = value.get<double>();

@@ -13,9 +13,9 @@ namespace rollrig {
 struct ItemTable {
   std::vector<std::size_t> items;                // in their order
   std::vector<std::vector<std::string>> values;  // of each item, of each factor
-  std::vector<std::string> results;
-  std::vector<std::vector<double>> numbers;  // of each result, NaN where an item has none
-  std::vector<std::string> failures;         // empty where the item did not fail
+  std::vector<std::string> results;              // their names; "load_N_2" where a factor is called load_N
+  std::vector<std::vector<double>> numbers;      // of each result, NaN where an item has none
+  std::vector<std::string> failures;             // empty where the item did not fail
 
   bool has_failures() const {
     return std::any_of(failures.begin(), failures.end(), [](const std::string& text) { return !text.empty(); });

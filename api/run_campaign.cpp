@@ -50,10 +50,14 @@ RunCampaignState make_state(const campaigns::Tally& tally, const std::string& of
                             {"failed", tally.failed},
                             {"processes", running.size()}}) +
                "\n";
-  state.text = wrap(fmt::format("{}: {} of {} done{}{}", of, tally.done, format_count(tally.items, "item"),
-                                tally.failed > 0 ? fmt::format(", {} of them failed", tally.failed) : "",
-                                running.empty() ? "" : ", " + format_count(running.size(), "process") + " at work"),
-                    0);
+  state.text = wrap(
+      fmt::format("{}: {} of {} done{}{}", of, tally.done, format_count(tally.items, "item"),
+                  tally.failed > 0 ? fmt::format(", {} of them failed", tally.failed) : "",
+                  running.empty()
+                      ? ""
+                      : fmt::format(", {} at work",
+                                    running.size() == 1 ? "1 process" : fmt::format("{} processes", running.size()))),
+      0);
   return state;
 }
 
@@ -83,6 +87,11 @@ std::optional<CampaignPart> find_campaign_part() {
 }
 
 void define_run_campaign(const RunCampaignInput& input, const std::string& folder) {
+  std::error_code none;
+  if (fs::exists(folder, none) && !fs::is_empty(folder, none)) {
+    throw InputError({fmt::format("'{}' is there already and holds files", folder), "command line", 0, "folder", folder,
+                      "a new or an empty folder", ""});
+  }
   CampaignDefinition definition = make_definition(input);
   definition.files = RunItems(definition).check();
   write_folder(folder, {{kFileName, definition.to_text()}});
@@ -96,13 +105,20 @@ RunCampaign::RunCampaign(const std::string& folder) {
   }
   const std::string content = read_text_file(path);
   const CampaignDefinition definition = CampaignDefinition::read(content, path);
-  data_ = std::make_shared<Data>(Data{definition, RunItems(definition), {folder, content, definition.design.seed}});
+  try {
+    data_ = std::make_shared<Data>(Data{definition, RunItems(definition), {folder, content, definition.design.seed}});
+  } catch (const InputError& error) {  // of a design that somebody has changed by hand
+    InputProblem problem = error.problem();
+    problem.file = path;
+    throw InputError(problem);
+  }
 }
 
 RunCampaignState RunCampaign::carry_out(const CampaignPart& part, int threads, const Progress& progress) const {
   require_same_version(data_->definition, data_->path_of_definition());
   RunItems items(data_->definition);
   items.watch_files(data_->definition.files);
+  items.check();
   const auto advance = [&progress](double done) {
     if (progress) progress(done, "");
   };
@@ -134,7 +150,7 @@ RunCampaignState RunCampaign::merge() const {
   fs::rename(partial, merged);
   const auto has = [&is_merged](std::size_t item) { return item < is_merged.size() && is_merged[item]; };
   for (const std::string& file : files) {
-    if (file != merged) campaigns::remove_if_contained(file, has);
+    if (file != merged) campaigns::remove_if_contained(file, data_->folder.definition, has);
   }
   return read_state();
 }
@@ -195,6 +211,10 @@ Report RunCampaign::calc_sensitivity(const std::string& result) const {
                       fmt::format("{} or {}", campaigns::kSobolIndices, campaigns::kMorris), ""});
   }
   const ItemTable table = data_->read_table();
+  if (table.results.empty()) {
+    throw InputError({"no item of the campaign has a result: all that were carried out failed", data_->folder.path, 0,
+                      "", "", "rollrig campaign export, whose column failure says why", ""});
+  }
   const auto known = std::find(table.results.begin(), table.results.end(), result);
   if (known == table.results.end()) {
     InputProblem problem = unknown_name("result", result, table.results);

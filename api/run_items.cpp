@@ -7,9 +7,29 @@
 #include "sim/core/text.h"
 
 namespace rollrig {
+namespace {
+
+/// Runs a scenario in its quicker fidelity, where it has two. That the run fails is no matter here.
+void carry_out_quickly(scenarios::RunSpec spec) {
+  for (const scenarios::Fidelity fidelity : spec.scenario->fidelities) {
+    if (fidelity == scenarios::Fidelity::kQuasiStatic) spec.fidelity = fidelity;
+  }
+  try {
+    scenarios::run_scenario(spec, {});
+  } catch (const RunFailure&) {
+  }
+}
+
+}  // namespace
 
 RunItems::RunItems(const CampaignDefinition& definition)
     : run_(definition.run), factors_(definition.design.factors), design_(campaigns::make_design(definition.design)) {}
+
+std::vector<std::string> RunItems::list_keys() const {
+  std::vector<std::string> keys;
+  for (const campaigns::Factor& factor : factors_) keys.push_back(factor.key);
+  return keys;
+}
 
 Json RunItems::describe(std::size_t item) const {
   const std::vector<std::string> values = calc_values(item);
@@ -19,7 +39,10 @@ Json RunItems::describe(std::size_t item) const {
 }
 
 Json RunItems::carry_out(std::size_t item, std::uint64_t seed) const {
-  return scenarios::run_scenario(read(calc_values(item), seed), {}).result;
+  const ReadRecorder recorder;
+  Json result = scenarios::run_scenario(read(calc_values(item), seed), {}).result;
+  if (watch_.has_value()) watch_->require_known(recorder.list_files());
+  return result;
 }
 
 std::vector<CampaignFile> RunItems::check() const {
@@ -36,6 +59,7 @@ std::vector<CampaignFile> RunItems::check() const {
   std::vector<std::string> medians;
   for (const campaigns::Factor& factor : factors_) medians.push_back(factor.calc_value(0.5));
   check_at(medians);
+  carry_out_quickly(read(medians, 1));  // some files are read only then
   for (std::size_t f = 0; f < factors_.size(); ++f) {
     for (const std::string& value : factors_[f].values) {
       if (parse_number(value).has_value()) continue;

@@ -27,11 +27,13 @@ class RunItems : public campaigns::ItemList {
   Json describe(std::size_t item) const override;
   Json carry_out(std::size_t item, std::uint64_t seed) const override;
 
+  /// The keys of the factors.
+  std::vector<std::string> list_keys() const;
   /// The value of each factor.
   std::vector<std::string> calc_values(std::size_t item) const { return design_->calc_values(item); }
-  /// Reads and prepares items, and returns the files that were read: of a grid its first and its last item and one with
-  /// each word or path that a factor takes, of draws the item at the median of each factor. Throws InputError where one
-  /// of them cannot be carried out.
+  /// Reads and prepares items: of a grid its first and its last item and one with each word or path that a factor
+  /// takes, of draws the item at the median of each factor. Carries out one item, in the quicker fidelity. Returns the
+  /// files that were read. Throws InputError where one of the items is wrong.
   std::vector<CampaignFile> check() const;
 
  private:

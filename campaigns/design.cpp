@@ -234,10 +234,25 @@ void check(const DesignInput& input) {
         "nothing differs between the items", is_grid ? "--vary" : "--draw", "",
         is_grid ? "--vary key=a,b,c" : "--draw key=normal:MEAN:SD, --draw key=uniform:LOW:HIGH, --draw-sd");
   }
+  if (input.factors.size() > kMostFactors) {
+    throw bad_design("too many factors", "--draw", std::to_string(input.factors.size()),
+                     fmt::format("at most {}", kMostFactors));
+  }
   for (auto factor = input.factors.begin(); factor != input.factors.end(); ++factor) {
     const auto is_same = [&](const Factor& other) { return other.key == factor->key; };
     if (std::any_of(input.factors.begin(), factor, is_same)) {
       throw bad_design(fmt::format("'{}' is a factor twice", factor->key), "--draw", factor->key, "each factor once");
+    }
+    if (factor->key.empty() || factor->key.find_first_of(" \t\n=") != std::string::npos) {
+      throw bad_design(fmt::format("'{}' is no key of a setting", factor->key), "--draw", factor->key,
+                       "a key as --set has it");
+    }
+    const bool is_interval = factor->kind == Factor::Kind::kUniform && factor->first < factor->second;
+    const bool is_spread = factor->kind == Factor::Kind::kNormal && factor->second > 0.0;
+    const bool is_finite = std::isfinite(factor->first) && std::isfinite(factor->second);
+    if (factor->kind != Factor::Kind::kValues && !(is_finite && (is_interval || is_spread))) {
+      throw bad_design(fmt::format("the distribution of '{}' cannot be", factor->key), "--draw", factor->key,
+                       "uniform with LOW < HIGH, or normal with SD > 0");
     }
     if (factor->kind == Factor::Kind::kValues && factor->values.empty()) {
       throw bad_design(fmt::format("'{}' has no values", factor->key), "--vary", factor->key, "at least one value");

@@ -39,6 +39,8 @@ struct DesignInput {
 
 constexpr std::size_t kMostItems = 10'000'000;  // Assumed: each needs a bit of memory and a row of a file
 
+constexpr std::size_t kMostFactors = 1000;  // Assumed; Boost's Sobol' sequence has 3667 dimensions
+
 /// Every value with every other: the last factor changes first.
 constexpr const char* kGrid = "grid";
 /// Independent draws; item i has a stream of random numbers of its own.

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <regex>
 
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/replace.hpp>
@@ -42,6 +43,10 @@ Record carry_out_one(const ItemList& list, const CampaignFolder& folder, std::si
     record.result = to_text(list.carry_out(item, record.seed), -1);
   } catch (const RunFailure& failure) {
     fail(failure);
+  } catch (const CampaignChanged&) {
+    throw;
+  } catch (const FileProblem&) {  // of the moment, such as a network drive that does not answer
+    throw;
   } catch (const InputError& error) {  // such as a draw beyond what is allowed
     fail(error);
   }
@@ -136,9 +141,12 @@ std::string CampaignFolder::file_of(const Part& part) const {
 }
 
 std::vector<std::string> CampaignFolder::list_files() const {
+  static const std::regex name("results(_[0-9]+_of_[0-9]+)?\\.sqlite");
   std::vector<std::string> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
-    if (entry.path().extension() == ".sqlite") files.push_back(entry.path().string());
+    const bool is_file = entry.is_regular_file() && !entry.is_symlink();
+    const std::string file = entry.path().filename().string();
+    if (is_file && file.size() < 64 && std::regex_match(file, name)) files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -156,8 +164,8 @@ Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const 
   const std::string path = folder.file_of(part);
   Tally tally = done.count(part);
   if (tally.done == tally.items && !is_there(path)) return tally;
-  ProgressFile progress(progress_file_of(path));  // goes after the file is closed
   Store store(path, folder.definition);
+  ProgressFile progress(progress_file_of(path));  // only now: another process may work on the part
   Tally own;  // of this file: `status` adds it to those of the files that it can read
   store.list_items([&](std::size_t item, bool has_failed) {
     done.add(path, item, has_failed);

@@ -7,9 +7,16 @@
 #include <vector>
 
 #include "campaigns/part.h"
+#include "include/rollrig/error.h"
 #include "sim/core/json.h"
 
 namespace rollrig::campaigns {
+
+/// What the items of a campaign are made from is not what it was: no item can be carried out.
+class CampaignChanged : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// A list of items, each of which can be carried out without the others, on any machine, in any order, with the same
 /// result to the bit.
@@ -20,11 +27,11 @@ class ItemList {
   virtual std::size_t count() const = 0;
   /// What tells the item from the others, for its identity and for people.
   virtual Json describe(std::size_t item) const = 0;
-  /// The result. Throws RunFailure or InputError for an item that cannot be carried out, Interrupted. Called from
-  /// several threads.
+  /// The result. Throws RunFailure or InputError for an item that cannot be carried out, CampaignChanged, FileProblem
+  /// and Interrupted where no item can be. Called from several threads.
   virtual Json carry_out(std::size_t item, std::uint64_t seed) const = 0;
-  /// Throws InputError where what the items are made from, such as a file, is no longer what it was. Called after each
-  /// item, before its result counts.
+  /// Throws CampaignChanged where what the items are made from, such as a file, is no longer what it was. Called after
+  /// each item, before its result counts.
   virtual void require_unchanged() const {}
 };
 
@@ -36,7 +43,7 @@ struct CampaignFolder {
 
   /// The file of a part's results: "results_0003_of_0010.sqlite".
   std::string file_of(const Part& part) const;
-  /// All files of results, by name.
+  /// All files of results, "results.sqlite" and those of parts, by name.
   std::vector<std::string> list_files() const;
 };
 

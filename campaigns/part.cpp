@@ -25,6 +25,14 @@ std::optional<std::size_t> read_count(const Environment& environment, const char
                     "what the batch system sets, or --shard I/N", ""});
 }
 
+/// Of a variable that is there whenever `beside` is.
+std::size_t require_count(const Environment& environment, const char* name, const char* beside) {
+  const std::optional<std::size_t> count = read_count(environment, name);
+  if (count.has_value()) return *count;
+  throw InputError({fmt::format("the variable {} is set, and {} is not", beside, name), "environment", 0, name, "",
+                    "what the batch system sets, or --shard I/N", ""});
+}
+
 Part make_part(const char* name, std::size_t part, std::size_t parts) {
   if (part >= 1 && part <= parts && static_cast<double>(parts) <= kMostParts) return {part, parts};
   throw InputError({fmt::format("the variable {} says part {} of {}", name, part, parts), "environment", 0, name, "",
@@ -40,8 +48,8 @@ Part make_array_part(const char* name, std::size_t id, std::size_t first, std::s
 
 std::optional<Part> find_array_part(const Environment& environment) {
   if (const auto id = read_count(environment, "SLURM_ARRAY_TASK_ID")) {
-    const std::size_t first = read_count(environment, "SLURM_ARRAY_TASK_MIN").value_or(0);
-    const std::size_t last = read_count(environment, "SLURM_ARRAY_TASK_MAX").value_or(*id);
+    const std::size_t first = require_count(environment, "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_ID");
+    const std::size_t last = require_count(environment, "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_ID");
     const Part part = make_array_part("SLURM_ARRAY_TASK_ID", *id, first, last,
                                       read_count(environment, "SLURM_ARRAY_TASK_STEP").value_or(1));
     const std::size_t tasks = read_count(environment, "SLURM_ARRAY_TASK_COUNT").value_or(part.count);
@@ -51,8 +59,8 @@ std::optional<Part> find_array_part(const Environment& environment) {
                       "--array=1-N; or --shard I/N, to carry out some parts alone", ""});
   }
   if (const auto id = read_count(environment, "SGE_TASK_ID")) {
-    return make_array_part("SGE_TASK_ID", *id, read_count(environment, "SGE_TASK_FIRST").value_or(1),
-                           read_count(environment, "SGE_TASK_LAST").value_or(*id),
+    return make_array_part("SGE_TASK_ID", *id, require_count(environment, "SGE_TASK_FIRST", "SGE_TASK_ID"),
+                           require_count(environment, "SGE_TASK_LAST", "SGE_TASK_ID"),
                            read_count(environment, "SGE_TASK_STEPSIZE").value_or(1));
   }
   return std::nullopt;
@@ -68,8 +76,8 @@ std::optional<Part> find_process_part(const Environment& environment) {
   for (const Launcher& launcher :
        {Launcher{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, Launcher{"PMI_RANK", "PMI_SIZE"}}) {
     const auto rank = read_count(environment, launcher.rank);
-    const auto size = read_count(environment, launcher.size);
-    if (rank.has_value() && size.has_value()) return make_part(launcher.rank, *rank + 1, *size);
+    if (!rank.has_value()) continue;
+    return make_part(launcher.rank, *rank + 1, require_count(environment, launcher.size, launcher.rank));
   }
   // srun alone sets SLURM_STEP_NUM_TASKS to the number of processes that it has started.
   const auto rank = read_count(environment, "SLURM_PROCID");
@@ -95,7 +103,8 @@ std::optional<Part> find_part(const Environment& environment) {
   const std::optional<Part> array = find_array_part(environment);
   const std::optional<Part> process = find_process_part(environment);
   if (!array.has_value() || !process.has_value()) return array.has_value() ? array : process;
-  return Part{(array->number - 1) + array->count * (process->number - 1) + 1, array->count * process->count};
+  return make_part("SLURM_ARRAY_TASK_ID", (array->number - 1) + array->count * (process->number - 1) + 1,
+                   array->count * process->count);
 }
 
 }  // namespace rollrig::campaigns

@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <map>
 
+#include "campaigns/design.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 
 namespace rollrig::campaigns {
 namespace {
@@ -52,6 +54,7 @@ constexpr const char* kWait = "to wait until the process has ended; see rollrig 
 /// Opens a file for this process alone. In this mode, set before the file is first read, SQLite needs no memory that
 /// is shared between processes.
 SQLite::Database open_alone(const std::string& path, int flags, int patience_ms = kPatience_ms) {
+  note_as_read(path);  // it is not to be replaced by an output
   SQLite::Database database(path, flags, patience_ms);
   database.exec("PRAGMA locking_mode = EXCLUSIVE");
   return database;
@@ -61,7 +64,7 @@ SQLite::Database open_alone(const std::string& path, int flags, int patience_ms 
 void take_log_in(SQLite::Database& database) { database.exec("PRAGMA journal_mode = DELETE"); }
 
 /// Whether a file has a log: a process writes it, or was killed as it did.
-bool has_log(const std::string& path) { return is_there(path + "-wal"); }
+bool has_log(const std::string& path) { return is_there(path + "-wal") || is_there(path + "-journal"); }
 
 /// Opens a file to read it, beside others that read it. What a killed process has left in the log is taken into the
 /// file first.
@@ -70,13 +73,18 @@ SQLite::Database open_to_read(const std::string& path) {
     SQLite::Database database = open_alone(path, SQLite::OPEN_READWRITE);
     take_log_in(database);
   }
+  note_as_read(path);
   return SQLite::Database(path, SQLite::OPEN_READONLY, kPatience_ms);
 }
 
 /// Whether the file has its tables: not where a process was killed as it made the file. Throws InputError where they
-/// are another campaign's.
+/// are another campaign's, or something else.
 bool has_tables(SQLite::Database& database, const std::string& path, const std::string& definition) {
-  if (!database.tableExists("campaign")) return false;
+  if (!database.tableExists("campaign")) {
+    if (database.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) return false;
+    throw InputError({"this is no file of a campaign's results", path, 0, "", "",
+                      "a file that rollrig campaign has written, or none at this place", ""});
+  }
   SQLite::Statement query(database, "SELECT definition FROM campaign");
   if (query.executeStep() && query.getColumn(0).getString() == definition) return true;
   throw InputError(
@@ -147,6 +155,7 @@ Store::Store(const std::string& path, const std::string& definition) {
     SQLite::Database& file = database_->file;
     file.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
     if (!has_tables(file, path, definition)) make_tables(file, definition);
+    note_as_read(path);  // which it could not be before it was made
     // An item that another file had, and that was carried out again, has the same record.
     database_->insert =
         std::make_unique<SQLite::Statement>(file, "INSERT OR REPLACE INTO items VALUES (?, ?, ?, ?, ?)");
@@ -218,7 +227,14 @@ void read_records(const std::vector<std::string>& paths, const std::string& defi
     with_file(path, kWait, [&] {
       SQLite::Database file = open_to_read(path);
       if (!has_tables(file, path, definition)) return;
-      last = std::max(last, file.execAndGet("SELECT ifnull(max(item), -1) FROM items").getInt64());
+      const std::int64_t lowest = file.execAndGet("SELECT ifnull(min(item), 0) FROM items").getInt64();
+      const std::int64_t highest = file.execAndGet("SELECT ifnull(max(item), -1) FROM items").getInt64();
+      last = std::max(last, highest);
+      if (lowest >= 0 && highest < static_cast<std::int64_t>(kMostItems)) return;
+      throw InputError(
+          {fmt::format("the results have an item {}", lowest < 0 ? lowest : highest), path, 0, "", "",
+           fmt::format("items from 0 on, below {}; without the file, its items are carried out again", kMostItems),
+           ""});
     });
   }
   for (std::int64_t first = 0; first <= last; first += kBlock) {
@@ -226,17 +242,21 @@ void read_records(const std::vector<std::string>& paths, const std::string& defi
     for (const std::string& path : paths) {
       with_file(path, kWait, [&] { add_records(path, first, first + kBlock, block); });
     }
-    for (const auto& [item, record] : block) take(record);
+    for (const auto& [item, record] : block) {
+      throw_if_interrupted();
+      take(record);
+    }
   }
 }
 
-void remove_if_contained(const std::string& path, const std::function<bool(std::size_t item)>& has) {
+void remove_if_contained(const std::string& path, const std::string& definition,
+                         const std::function<bool(std::size_t item)>& has) {
   with_file(path, kWait, [&] {
     SQLite::Database file = open_alone(path, SQLite::OPEN_READWRITE);
     take_log_in(file);
     bool is_contained = true;
     const auto check = [&](std::size_t item, bool /*has_failed*/) { is_contained = is_contained && has(item); };
-    if (file.tableExists("items")) take_items(file, check);
+    if (has_tables(file, path, definition)) take_items(file, check);
     if (is_contained) std::filesystem::remove(path);  // while nobody else can open it
   });
 }

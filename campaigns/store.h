@@ -61,7 +61,8 @@ void read_items(const std::string& path, const std::string& definition,
                 const std::function<void(std::size_t item, bool has_failed)>& take);
 
 /// Removes a file of which `has` has every item; one with a further item stays. Throws InputError where a process
-/// writes it now.
-void remove_if_contained(const std::string& path, const std::function<bool(std::size_t item)>& has);
+/// writes it now, or it is no file of this campaign.
+void remove_if_contained(const std::string& path, const std::string& definition,
+                         const std::function<bool(std::size_t item)>& has);
 
 }  // namespace rollrig::campaigns

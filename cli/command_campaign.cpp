@@ -166,7 +166,7 @@ void add_new_campaign(CLI::App& campaign, Action& action) {
   command->add_option(
       "--design", input.design,
       fmt::format("{} [grid; where something is drawn, monte_carlo]", fmt::join(campaign_designs(), ", ")));
-  command->add_option("--points", input.points, "Points of a design that is no grid");
+  command->add_option("--points", input.points, "Points of a design that is no grid")->check(CLI::Range(1, 10000000));
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }
 

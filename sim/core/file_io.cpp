@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 namespace rollrig {
 namespace {
 
-InputError file_problem(const std::string& what, const std::string& path, const std::string& allowed = {}) {
-  return InputError({what, path, 0, "", "", allowed, ""});
+FileProblem file_problem(const std::string& what, const std::string& path, const std::string& allowed = {}) {
+  return FileProblem({what, path, 0, "", "", allowed, ""});
 }
 
 /// What read_text_file() has read, from whichever thread.
@@ -43,6 +43,8 @@ FilesRead& files_read() {
 
 thread_local ReadRecorder* innermost_recorder = nullptr;
 
+}  // namespace
+
 void note_as_read(const std::string& path) {
   std::error_code code;
   const fs::path canonical = fs::canonical(path, code);
@@ -51,8 +53,6 @@ void note_as_read(const std::string& path) {
   files_read().paths.insert(canonical);
   if (innermost_recorder != nullptr) innermost_recorder->add(canonical.string());
 }
-
-}  // namespace
 
 std::string nearest_file(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
@@ -68,7 +68,7 @@ std::string nearest_file(const std::string& path) {
 
 namespace {
 
-InputError read_problem(const std::string& path, int error_number) {
+FileProblem read_problem(const std::string& path, int error_number) {
   return file_problem(fmt::format("cannot read '{}': {}", path, std::strerror(error_number)), path);
 }
 
@@ -81,7 +81,7 @@ void require_file(const std::string& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (status.type() == fs::file_type::not_found) {
-    throw InputError({fmt::format("no such file '{}'", path), path, 0, "", "", "", nearest_file(path)});
+    throw FileProblem({fmt::format("no such file '{}'", path), path, 0, "", "", "", nearest_file(path)});
   }
   if (status.type() == fs::file_type::directory) {
     throw file_problem(fmt::format("'{}' is a directory, not a file", path), path);
@@ -98,7 +98,7 @@ void require_file(const std::string& path) {
 
 namespace {
 
-InputError too_large(const std::string& path, std::uintmax_t largest_bytes) {
+FileProblem too_large(const std::string& path, std::uintmax_t largest_bytes) {
   return file_problem(fmt::format("'{}' is too large", path), path,
                       fmt::format("at most {} MiB in a file of this kind", largest_bytes >> 20));
 }

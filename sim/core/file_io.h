@@ -7,10 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "include/rollrig/error.h"
+
 namespace rollrig {
 
 constexpr std::uintmax_t kLargestText_bytes = std::uintmax_t{64} << 20;  // Assumed: of TOML, JSON and other documents
 constexpr std::uintmax_t kLargestTable_bytes = std::uintmax_t{1} << 30;  // Assumed: of tables, such as CSV logs
+
+/// A file that cannot be read, whatever it holds: it is missing, no file, unreadable, empty or too large.
+class FileProblem : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// The whole of a text file of at most kLargestText_bytes. Throws InputError when it is missing, a directory, a device,
 /// a pipe, unreadable, empty, too large, or not UTF-8 text.
@@ -33,6 +41,9 @@ void require_file(const std::string& path);
 /// Whether something is at a path. Throws InputError where the system cannot tell: the name is too long, its links go
 /// round in a loop, a folder on the way may not be searched.
 bool is_there(const std::string& path);
+
+/// Counts a file as read that was read by other means than these functions.
+void note_as_read(const std::string& path);
 
 /// Whether read_text_file() has read this very file, by whatever name, since the program started.
 bool was_read(const std::string& path);

@@ -95,9 +95,9 @@ std::size_t rank_of(const std::string& folder) {
   return static_cast<std::size_t>(std::find(kOrder.begin(), kOrder.end(), folder) - kOrder.begin());
 }
 
-const std::vector<const char*> kTops{"include",      "sim",        "tables",    "models",  "rigs",
-                                     "measurements", "estimation", "scenarios", "exports", "diagnosis",
-                                     "validation",   "report",     "api",       "cli",     "examples"};
+const std::vector<const char*> kTops{"include",    "sim",       "tables",  "models",    "rigs",       "measurements",
+                                     "estimation", "scenarios", "exports", "diagnosis", "validation", "report",
+                                     "campaigns",  "api",       "cli",     "examples"};
 
 template <class Visit>
 void visit_includes(Visit&& visit) {

@@ -119,6 +119,26 @@ TEST_CASE("two files that contradict each other are refused", "[fast]") {
   CHECK_THROWS_AS(read_all(folder), rollrig::InputError);
 }
 
+TEST_CASE("results of items that no campaign has are refused at once", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  Store(folder.file_of({1, 1}), "test").write({std::size_t{1} << 62U, "identity", 1, "{}", ""});
+  CHECK_THROWS_AS(read_all(folder), rollrig::InputError);
+  CHECK_THROWS_AS(read_state(folder, 50), rollrig::InputError);
+}
+
+TEST_CASE("files of others are neither adopted nor removed", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  Store(at.file("notes.sqlite"), "another use").write({3, "identity", 1, "{}", ""});
+  Store(folder.file_of({1, 1}), "another use").write({3, "identity", 1, "{}", ""});
+  CHECK(folder.list_files().size() == 1);
+  CHECK_THROWS_AS(Store(folder.file_of({1, 1}), "test"), rollrig::InputError);
+  CHECK_THROWS_AS(remove_if_contained(folder.file_of({1, 1}), "test", [](std::size_t) { return true; }),
+                  rollrig::InputError);
+  CHECK(folder.list_files().size() == 1);
+}
+
 TEST_CASE("items have seeds of their own, which no split changes", "[fast]") {
   CHECK(calc_item_seed(1, 0) != calc_item_seed(1, 1));
   CHECK(calc_item_seed(1, 0) != calc_item_seed(2, 0));
@@ -139,13 +159,13 @@ TEST_CASE("a file that has a further item is not removed", "[fast]") {
   const CampaignFolder folder{at.path(), "test", 11};
   const std::string file = folder.file_of({1, 1});
   carry_out_items(FakeItems(), folder, {1, 1}, 1);
-  remove_if_contained(file, [](std::size_t item) { return item != 30; });
+  remove_if_contained(file, "test", [](std::size_t item) { return item != 30; });
   CHECK(folder.list_files().size() == 1);
   {
     const Store writer(file, "test");
-    CHECK_THROWS_AS(remove_if_contained(file, [](std::size_t) { return true; }), rollrig::InputError);
+    CHECK_THROWS_AS(remove_if_contained(file, "test", [](std::size_t) { return true; }), rollrig::InputError);
   }
-  remove_if_contained(file, [](std::size_t) { return true; });
+  remove_if_contained(file, "test", [](std::size_t) { return true; });
   CHECK(folder.list_files().empty());
 }
 
@@ -153,11 +173,11 @@ TEST_CASE("items stop where what they are made from changes", "[fast]") {
   class Changing : public FakeItems {
    public:
     void require_unchanged() const override {
-      if (count_carried_out() > 10) throw rollrig::InputError({"the file has changed", "tire.toml", 0, "", "", "", ""});
+      if (count_carried_out() > 10) throw CampaignChanged({"the file has changed", "tire.toml", 0, "", "", "", ""});
     }
   };
   const TemporaryFolder at;
   const CampaignFolder folder{at.path(), "test", 11};
-  CHECK_THROWS_AS(carry_out_items(Changing(), folder, {1, 1}, 1), rollrig::InputError);
+  CHECK_THROWS_AS(carry_out_items(Changing(), folder, {1, 1}, 1), CampaignChanged);
   CHECK(read_state(folder, 50).tally.done == 10);
 }

@@ -93,6 +93,8 @@ TEST_CASE("what a batch system cannot mean is refused", "[fast]") {
   CHECK_THROWS_AS(find_in({{"SLURM_ARRAY_TASK_ID", "one"}}), rollrig::InputError);
   CHECK_THROWS_AS(find_in({{"SLURM_ARRAY_TASK_ID", "9"}, {"SLURM_ARRAY_TASK_MIN", "1"}, {"SLURM_ARRAY_TASK_MAX", "3"}}),
                   rollrig::InputError);
+  CHECK_THROWS_AS(find_in({{"SLURM_ARRAY_TASK_ID", "3"}}), rollrig::InputError);
+  CHECK_THROWS_AS(find_in({{"OMPI_COMM_WORLD_RANK", "1"}}), rollrig::InputError);
   // "--array=1,3,7": parts 2, 4, 5 and 6 would never be carried out.
   CHECK_THROWS_AS(find_in({{"SLURM_ARRAY_TASK_ID", "3"},
                            {"SLURM_ARRAY_TASK_MIN", "1"},

@@ -152,3 +152,26 @@ TEST_CASE("each process of a launcher carries out its share", "[fast]") {
   const std::string job = run_to_end("campaign slurm c --tasks 3", at);
   CHECK_THAT(job, Catch::Contains("#SBATCH --array=1-3") && Catch::Contains("campaign run"));
 }
+
+TEST_CASE("a campaign reads the files that it was begun with, and no others", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun + " --vary ambient_degC=20,25", at);
+  for (const char* assets : {"ROLLRIG_ASSETS=/nonexistent", "ROLLRIG_ASSETS="}) {
+    const ProgramResult result = run_program("campaign run c --shard 1/2", at.path(), assets);
+    INFO(result.err);
+    CHECK(result.status != 3);  // nothing may be kept as a failed item
+  }
+  run_to_end("campaign run c", at);
+  CHECK_THAT(run_to_end("campaign status c", at), !Catch::Contains("failed"));
+}
+
+TEST_CASE("results of a campaign are not overwritten by what a command writes", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun + " --vary load_N=5000,5400", at);
+  const std::string results = "c/results_0001_of_0001.sqlite";
+  CHECK(run_program("campaign run c --json " + results, at.path()).status == 2);
+  CHECK(run_program("campaign export c --csv " + results, at.path()).status == 2);
+  CHECK(run_program("campaign status c --json " + results, at.path()).status == 2);
+  const std::string csv = run_to_end("campaign export c --csv -", at);
+  CHECK_THAT(csv, Catch::StartsWith("item,load_N,start_s") && Catch::Contains(",load_N_2,"));
+}
