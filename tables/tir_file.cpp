@@ -56,6 +56,16 @@ class Entries {
                       "a positive number", ""});
   }
 
+  /// FITTYP, the version of the tire model; 0 where the file has none.
+  int get_version() const {
+    constexpr double kHighest = 1000.0;  // Assumed: that of Pacejka's model of 2012 is 62
+    const double version = find_number("FITTYP").value_or(0.0);
+    if (version >= 0.0 && version <= kHighest && version == std::floor(version)) return static_cast<int>(version);
+    const Entry& entry = entries_.at("FITTYP");
+    throw InputError({"FITTYP is no version", path_, entry.line, "FITTYP", entry.value,
+                      fmt::format("a whole number, 0 to {:.0f}", kHighest), ""});
+  }
+
   void require_unit(const std::string& key, const std::string& unit) const {
     const auto entry = entries_.find(key);
     if (entry == entries_.end() || boost::algorithm::to_lower_copy(entry->second.value) == unit) return;
@@ -96,7 +106,7 @@ TirFile read_tir(const std::string& path) {
   entries.require_unit("TIME", "second");
   TirFile tir;
   tir.path = path;
-  tir.version = static_cast<int>(entries.find_number("FITTYP").value_or(0.0));
+  tir.version = entries.get_version();
   tir.radius_m = entries.get_positive("UNLOADED_RADIUS");
   tir.load_N = entries.get_positive("FNOMIN");
   tir.speed_m_s = entries.get_positive("LONGVL");

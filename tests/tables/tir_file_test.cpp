@@ -75,6 +75,10 @@ TEST_CASE("coefficients that are no tire's are warned of", "[fast]") {
 TEST_CASE("what is wrong in a tire property file is named with its line", "[fast]") {
   CHECK(find_problem(make_text("61", "QSY1 = many\n")).line == 24);
   CHECK(find_problem(make_text("61", "FORCE = 'kN'\n")).key == "FORCE");
+  // Found by tools/fuzz: beyond what an int holds.
+  for (const char* version : {"18446744073709551615", "-1", "61.5", "1e300"}) {
+    CHECK(find_problem(make_text(version)).key == "FITTYP");
+  }
   CHECK(find_problem(make_text("61", "FNOMIN = -3\n")).key == "FNOMIN");
   CHECK(find_problem("[MODEL]\nLONGVL = 10\nFNOMIN = 3000\n").key == "UNLOADED_RADIUS");
   CHECK(find_problem("LONGVL = 10\nFNOMIN = 3000\nUNLOADED_RADIUS = 0.3\n").key == "QSY1");
