@@ -125,12 +125,7 @@ std::vector<campaigns::FactorPair> list_correlated(const std::vector<campaigns::
   return pairs;
 }
 
-/// A path as it is found from any folder, the name of an asset as it is.
-void make_absolute(std::string& name) {
-  if (name.find('/') != std::string::npos || fs::path(name).extension() == ".toml") name = fs::absolute(name).string();
-}
-
-/// Likewise a value that is the path of a file, such as the speed trace of follow_drum.
+/// Makes a value absolute that is the path of a file, such as the speed trace of follow_drum.
 void make_absolute_if_file(std::string& value) {
   std::error_code none;
   if (!parse_number(value).has_value() && fs::is_regular_file(value, none)) value = fs::absolute(value).string();
@@ -148,7 +143,7 @@ void make_setting_absolute(std::string& setting) {
 /// Throws InputError where a factor is given in another way, too.
 void require_given_once(const RunCampaignInput& input, const std::vector<campaigns::Factor>& factors) {
   ConfigTable file;
-  if (fs::path(input.run.scenario_or_file).extension() == ".toml") file = read_config(input.run.scenario_or_file);
+  if (is_file_name(input.run.scenario_or_file)) file = read_config(input.run.scenario_or_file);
   const auto is_overridden = [&file](const std::string& key) {
     std::vector<std::string> parts;
     boost::algorithm::split(parts, "override." + key, [](char c) { return c == '.'; });
@@ -254,7 +249,7 @@ CampaignDefinition make_definition(const RunCampaignInput& input) {
   definition.run.seed.clear();
   for (std::string* name : {&definition.run.scenario_or_file, &definition.run.tire, &definition.run.rig,
                             &definition.run.vehicle, &definition.run.sensors}) {
-    make_absolute(*name);
+    *name = absolute_if_path(*name);
   }
   for (std::string& setting : definition.run.settings) make_setting_absolute(setting);
   const scenarios::RunSpec spec = read_run(input.run);

@@ -26,6 +26,11 @@ inline FolderFiles to_folder(const std::map<std::string, std::string>& files) { 
 /// What import_logs() does with a mapping that has been read.
 Report import_by_mapping(const measurements::Mapping& mapping, BadRows bad_rows);
 
+/// Whether a text names a file, and not an asset or a scenario: it has a '/', or ends in .toml.
+bool is_file_name(const std::string& text);
+/// A path that a program gives, which is relative to the working folder; the name of an asset as it is.
+std::string absolute_if_path(const std::string& name);
+
 /// Reads what `input` names. Throws InputError.
 scenarios::RunSpec read_run(const RunInput& input);
 

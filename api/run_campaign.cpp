@@ -7,8 +7,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include <boost/algorithm/string/replace.hpp>
-
 #include "api/campaign_definition.h"
 #include "api/item_table.h"
 #include "api/run_items.h"
@@ -21,6 +19,7 @@
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/shell_word.h"
 #include "sim/core/text.h"
 
 namespace fs = std::filesystem;
@@ -29,11 +28,6 @@ namespace rollrig {
 namespace {
 
 constexpr const char* kFileName = "campaign.json";
-
-/// A word as a shell reads it.
-std::string quote_word(const std::string& word) {
-  return "'" + boost::algorithm::replace_all_copy(word, "'", "'\\''") + "'";
-}
 
 campaigns::Part to_part(const CampaignPart& part) { return {part.number, part.count}; }
 CampaignPart from_part(const campaigns::Part& part) { return {part.number, part.count}; }
@@ -260,8 +254,8 @@ std::string RunCampaign::make_slurm_job(std::size_t tasks, const std::string& pr
       "#SBATCH --cpus-per-task=1\n"
       "#SBATCH --requeue\n"
       "exec {} campaign run {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads \"$SLURM_CPUS_PER_TASK\" --quiet\n",
-      data_->items.count(), data_->definition.run.scenario_or_file, tasks, tasks, quote_word(program),
-      quote_word(folder), tasks);
+      data_->items.count(), data_->definition.run.scenario_or_file, tasks, tasks, quote_for_shell(program),
+      quote_for_shell(folder), tasks);
 }
 
 }  // namespace rollrig

@@ -5,16 +5,16 @@
 namespace fs = std::filesystem;
 
 namespace rollrig {
-namespace {
 
 bool is_file_name(const std::string& text) {
   return text.find('/') != std::string::npos || fs::path(text).extension() == ".toml";
 }
 
-/// A path that a program gives is relative to the working folder, whatever the run file's folder.
 std::string absolute_if_path(const std::string& name) {
   return is_file_name(name) ? fs::absolute(name).string() : name;
 }
+
+namespace {
 
 void require_scenario(const std::string& name) {
   if (scenarios::find_scenario_if_any(name) != nullptr) return;

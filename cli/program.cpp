@@ -25,6 +25,7 @@
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/freed_memory.h"
+#include "sim/core/shell_word.h"
 #include "sim/core/text.h"
 #include "sim/core/text_encoding.h"
 #include "sim/core/visible.h"
@@ -119,22 +120,13 @@ int report(const char* kind, const std::string& what, int status) {
   return status;
 }
 
-/// A word as a shell reads it.
-std::string quote_word(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char letter : word) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  return quoted + "'";
-}
-
 /// A mistake of the program itself: what its developers need to know.
 int report_internal_error(const std::string& what, int argc, char** argv) {
   std::cout << std::flush;
   std::string command;
   for (int i = 0; i < argc; ++i) {
     command +=
-        (i == 0 ? "" : " ") + (i == 0 ? std::filesystem::path(argv[0]).filename().string() : quote_word(argv[i]));
+        (i == 0 ? "" : " ") + (i == 0 ? std::filesystem::path(argv[0]).filename().string() : quote_for_shell(argv[i]));
   }
   std::cerr << wrap("internal error: " + what, 2).substr(2)
             << wrap(

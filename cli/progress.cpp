@@ -56,8 +56,8 @@ void ProgressLine::update(double done, const std::string& stage) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!(done >= done_)) start_ = Clock::now();  // it begins again, or `done` is or was NaN
   done_ = done;
-  const bool is_wanted = done >= 1.0 ? reader_ == ProgressReader::kProgram : true;
-  if (!is_wanted || (done < 1.0 && !is_due())) return;
+  const bool is_end = done >= 1.0;  // which a person sees by the result
+  if (is_end ? reader_ == ProgressReader::kPerson : !is_due()) return;
   const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();
   if (reader_ == ProgressReader::kProgram) {
     if (done > 0.0) {
