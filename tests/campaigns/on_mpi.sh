@@ -15,20 +15,21 @@ runs="iso_28580 --tire a50 --vary ambient_degC=20:30:0.05"
 "$program" campaign export alone --csv alone.csv --quiet
 # shellcheck disable=SC2086
 "$program" campaign new four $runs --quiet
-run_four() {
-  mpirun --allow-run-as-root --oversubscribe -n 4 "$program" campaign run four --threads 1 --quiet
-}
-run_four 2>mpirun.log &
-launcher=$!
+as_four="mpirun --allow-run-as-root --oversubscribe -n 4"
+# shellcheck disable=SC2086  # words
+$as_four "$program" campaign run four --threads 1 --quiet 2>mpirun.log &
+launcher=$!  # mpirun itself, whose children are the four processes
 for _ in $(seq 1 600); do
   [ ! -e four/results_0002_of_0004.sqlite.progress ] || break
   sleep 0.05
 done
-kill -9 "$(pgrep -P "$launcher" -f "campaign run four" | tail -1)"
+[ "$(pgrep -P "$launcher" | wc -l)" = 4 ] || { echo "mpirun has not four processes"; exit 1; }
+kill -9 "$(pgrep -P "$launcher" | tail -1)"
 wait "$launcher" && { echo "mpirun did not notice that a process was killed"; exit 1; }
 "$program" campaign status four
 "$program" campaign status four --json - | grep -q '"done": 201' && { echo "all was done before the kill"; exit 1; }
-run_four
+# shellcheck disable=SC2086
+$as_four "$program" campaign run four --threads 1 --quiet
 "$program" campaign export four --csv four.csv --quiet
 cmp alone.csv four.csv
 echo "the same results in 4 processes as in one: $(($(wc -l <four.csv) - 1)) items"
