@@ -1,5 +1,6 @@
 #include "sim/core/config.h"
 
+#include <deque>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -104,7 +105,24 @@ ConfigTable parse_config(std::string_view text, const std::string& name) {
   }
 }
 
-ConfigTable read_config(const std::string& path) { return parse_config(read_text_file(path), path); }
+ConfigTable read_config(const std::string& path) {
+  struct Parsed {
+    std::string path;
+    std::string content;
+    ConfigTable table;
+  };
+  // A campaign reads the same tire and rig for each of its runs, and parsing takes longer than a quasi-static run.
+  thread_local std::deque<Parsed> parsed;
+  constexpr std::size_t kMost = 8;  // tire, rig, vehicle, sensors, a run file, and some to spare
+  std::string content = read_text_file(path);
+  for (const Parsed& known : parsed) {
+    if (known.path == path && known.content == content) return known.table;
+  }
+  ConfigTable table = parse_config(content, path);
+  if (parsed.size() == kMost) parsed.pop_front();
+  parsed.push_back({path, std::move(content), table});
+  return table;
+}
 
 void set_config_value(ConfigTable& root, const std::string& dotted_key, const std::string& value,
                       const std::string& origin_name) {
