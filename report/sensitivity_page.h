@@ -16,9 +16,9 @@ struct FactorScatter {
   std::vector<double> results;  // as long
 };
 
-/// Of the document of rollrig-sensitivity/1: the index of each factor as bars with its interval, a table, and the
-/// result over the factors of `scatters`, of which the first 1000 points each are drawn: all designs fill the space
-/// evenly from their beginning.
+/// Of the document of rollrig-sensitivity/1: the index of each factor as bars with its interval, a table, the result
+/// over the factors of `scatters`, and a map of its mean over the first two of them. Of each scatter the first 1000
+/// points are drawn: all designs fill the space evenly from their beginning.
 Page make_sensitivity_page(const Json& sensitivity, const Table& table, const std::string& explanation,
                            const std::vector<FactorScatter>& scatters);
 

@@ -114,6 +114,7 @@ Block make_intervals(const TireFit& fit, const Json& two_steps) {
 Block make_correlations(const TireFit& fit) {
   Block block = {{"type", "map"},
                  {"caption", "Correlation of the estimates"},
+                 {"heads", {"", "parameter"}},
                  {"columns", Json::array()},
                  {"rows", Json::array()},
                  {"legend", "Shade: size of the correlation."}};

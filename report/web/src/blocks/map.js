@@ -1,6 +1,6 @@
 // A map of deviations: rows of places, columns of channels, each cell with its number and a shade from
 // -4 (cool) to 4 (warm); a cell that counts has an outline and what makes it count.
-// {caption, columns: [...], rows: [{group, label, cells: [{text, shade, marked, note}]}], legend}
+// {caption, heads: [group, label], columns: [...], rows: [{group, label, cells: [{text, shade, marked, note}]}], legend}
 import { h } from '../dom.js';
 import { typeset } from '../format.js';
 
@@ -11,7 +11,7 @@ function makeCell(cell) {
     typeset(cell.text), cell.marked && h('span', { class: 'z' }, typeset(cell.marked)));
 }
 
-export function mapBlock({ caption, columns, rows, legend }) {
+export function mapBlock({ caption, heads = ['run', 'phase'], columns, rows, legend }) {
   const groups = [];
   for (const row of rows) {
     if (!groups.length || groups.at(-1).name !== row.group) groups.push({ name: row.group, rows: [] });
@@ -23,7 +23,7 @@ export function mapBlock({ caption, columns, rows, legend }) {
   return h('figure', null,
     h('div', { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption },
       h('table', { class: 'map' }, h('caption', null, caption),
-        h('thead', null, h('tr', null, h('th', { scope: 'col' }, 'run'), h('th', { scope: 'col' }, 'phase'), columns.map((c) => h('th', { scope: 'col' }, c)))),
+        h('thead', null, h('tr', null, heads.map((head) => h('th', { scope: 'col' }, head)), columns.map((c) => h('th', { scope: 'col' }, c)))),
         bodies)),
     legend && h('figcaption', null, legend));
 }
