@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/core/rows.h"
@@ -107,7 +108,8 @@ class CsvWriter {
     (add(cells), ...);
     end_row();
   }
-  std::string take() { return std::move(text_); }
+  /// What was added since the last call.
+  std::string take() { return std::exchange(text_, std::string()); }
 
  private:
   std::string text_;

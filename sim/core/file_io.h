@@ -85,6 +85,8 @@ class StagedOutput {
   StagedOutput(const StagedOutput&) = delete;
   StagedOutput& operator=(const StagedOutput&) = delete;
 
+  /// Adds to the end of what was staged, so that memory need not hold all of a file. Throws InputError.
+  void append(const std::string& content);
   /// Whether it goes to standard output or a device: it then is written as it is, and cannot be taken back.
   bool is_direct() const { return is_direct_; }
   /// Throws InputError: what the constructor throws, or a file that has come there with Existing::kKeep.
@@ -96,6 +98,7 @@ class StagedOutput {
   std::string staging_;  // empty where there is none
   Existing existing_;
   bool is_direct_ = false;
+  bool is_appended_ = false;
 };
 
 /// Writes one file whole. Throws InputError; what stood there before is kept then.

@@ -191,12 +191,24 @@ StagedOutput::StagedOutput(StagedOutput&& other) noexcept
       content_(std::move(other.content_)),
       staging_(std::move(other.staging_)),
       existing_(other.existing_),
-      is_direct_(other.is_direct_) {
+      is_direct_(other.is_direct_),
+      is_appended_(other.is_appended_) {
   other.staging_.clear();
 }
 
 StagedOutput::~StagedOutput() {
   if (!staging_.empty()) ::unlink(staging_.c_str());
+}
+
+void StagedOutput::append(const std::string& content) {
+  if (is_direct_) {
+    content_ += content;
+    return;
+  }
+  const int descriptor = ::open(staging_.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor < 0) throw write_problem(path_, errno);
+  write_descriptor(path_, descriptor, content, Durability::kLater);
+  is_appended_ = true;
 }
 
 void StagedOutput::commit() {
@@ -215,6 +227,7 @@ void StagedOutput::commit() {
     write_descriptor(path_, descriptor, content_, Durability::kLater);
     return;
   }
+  if (is_appended_) synchronize_path(staging_);
   const bool keeps = existing_ == Existing::kKeep;
   if ((keeps ? rename_to_free(staging_, path_) : std::rename(staging_.c_str(), path_.c_str())) != 0) {
     if (keeps && errno == EEXIST) {
