@@ -66,6 +66,24 @@ campaigns::Factor read_factor(const Json& json) {
   return factor;
 }
 
+Json write_diagnosis(const DiagnosisCampaignInput& input) {
+  Json json{{"sets", input.sets}, {"smallest_effect_percent", input.smallest_effect_percent}};
+  if (!input.only.empty()) json["only"] = input.only;
+  if (!input.without.empty()) json["without"] = input.without;
+  if (input.bad_rows == BadRows::kLeaveOut) json["skip_bad_rows"] = true;
+  return json;
+}
+
+DiagnosisCampaignInput read_diagnosis(const Json& json) {
+  DiagnosisCampaignInput input;
+  input.sets = json.at("sets").get<std::vector<std::string>>();
+  input.smallest_effect_percent = json.at("smallest_effect_percent").get<double>();
+  input.only = json.value("only", std::vector<std::string>());
+  input.without = json.value("without", std::vector<std::string>());
+  if (json.value("skip_bad_rows", false)) input.bad_rows = BadRows::kLeaveOut;
+  return input;
+}
+
 /// Numbers of a file that stand beside their standard uncertainty, as factors.
 void add_uncertain(const ConfigTable& table, const std::string& prefix, std::vector<campaigns::Factor>& factors) {
   for (const auto& [key, value] : table.entries) {
@@ -176,11 +194,18 @@ void require_given_once(const RunCampaignInput& input, const std::vector<campaig
 std::vector<std::string> campaign_designs() { return campaigns::design_names(); }
 
 std::string CampaignDefinition::to_text() const {
-  Json json{{"format", kCampaignFormat}, {"rollrig", version}, {"run", Json::object()}, {"files", Json::array()}};
-  visit_run(run, [&json](const char* key, const auto& value) {
-    if (!value.empty()) json["run"][key] = value;
-  });
+  Json json{{"format", kCampaignFormat}, {"rollrig", version}};
+  if (diagnosis.has_value()) {
+    json["diagnosis"] = write_diagnosis(*diagnosis);
+  } else {
+    json["run"] = Json::object();
+    visit_run(run, [&json](const char* key, const auto& value) {
+      if (!value.empty()) json["run"][key] = value;
+    });
+  }
+  json["files"] = Json::array();
   for (const CampaignFile& file : files) json["files"].push_back({{"path", file.path}, {"sha256", file.sha256}});
+  if (diagnosis.has_value()) return rollrig::to_text(json) + "\n";
   json["design"] = design.name;
   if (design.points > 0) json["points"] = design.points;
   json["seed"] = design.seed;
@@ -212,6 +237,13 @@ CampaignDefinition CampaignDefinition::read(const std::string& content, const st
                         kCampaignFormat, ""});
     }
     definition.version = json.at("rollrig").get<std::string>();
+    for (const Json& file : json.at("files")) definition.files.push_back({file.at("path"), file.at("sha256")});
+    if (json.contains("diagnosis")) {
+      definition.diagnosis = read_diagnosis(json["diagnosis"]);
+      if (!definition.files.empty() && !definition.diagnosis->sets.empty()) return definition;
+      throw InputError({"the file of the campaign says no sets or no files", path, 0, "diagnosis", "",
+                        "what rollrig campaign new writes", ""});
+    }
     visit_run(definition.run, [&json](const char* key, auto& value) {
       const auto found = json.at("run").find(key);
       if (found != json.at("run").end()) found->get_to(value);
@@ -220,7 +252,6 @@ CampaignDefinition CampaignDefinition::read(const std::string& content, const st
       throw InputError({"the file of the campaign says no scenario or no files", path, 0, "files", "",
                         "what rollrig campaign new writes", ""});
     }
-    for (const Json& file : json.at("files")) definition.files.push_back({file.at("path"), file.at("sha256")});
     definition.design.name = json.at("design").get<std::string>();
     definition.design.points = json.contains("points") ? read_count(json, "points", path) : 0;
     definition.design.seed = read_count(json, "seed", path);
@@ -271,6 +302,14 @@ CampaignDefinition make_definition(const RunCampaignInput& input) {
   return definition;
 }
 
+CampaignDefinition make_definition(const DiagnosisCampaignInput& input) {
+  CampaignDefinition definition;
+  definition.version = library_version();
+  definition.diagnosis = input;
+  for (std::string& set : definition.diagnosis->sets) set = fs::absolute(set).lexically_normal().string();
+  return definition;
+}
+
 void require_same_version(const CampaignDefinition& definition, const std::string& path) {
   if (definition.version == library_version()) return;
   throw InputError({fmt::format("the campaign was begun with rollrig {}; its results could differ from those of "
@@ -299,11 +338,14 @@ FileWatch::FileWatch(const std::vector<CampaignFile>& files) {
 
 void FileWatch::require_known(const std::vector<std::string>& paths) const {
   for (const std::string& path : paths) {
-    const auto is_same = [&path](const Known& known) { return known.file.path == path; };
-    if (std::any_of(known_.begin(), known_.end(), is_same)) continue;
+    if (knows(path)) continue;
     throw campaigns::CampaignChanged({"the campaign would read a file that it did not read when it was begun", path, 0,
                                       "", "", "the files of campaign.json; or a new campaign", ""});
   }
+}
+
+bool FileWatch::knows(const std::string& path) const {
+  return std::any_of(known_.begin(), known_.end(), [&path](const Known& known) { return known.file.path == path; });
 }
 
 void FileWatch::require_unchanged() const {

@@ -3,16 +3,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "campaigns/design.h"
-#include "rollrig/run_campaign.h"
+#include "rollrig/item_campaign.h"
 #include "sim/core/json.h"
 
 namespace rollrig {
 
-/// A file that the runs of a campaign read.
+/// A file that the items of a campaign read.
 struct CampaignFile {
   std::string path;
   std::string sha256;
@@ -20,9 +21,12 @@ struct CampaignFile {
 
 struct CampaignDefinition {
   std::string version;  // of rollrig
-  RunInput run;         // without what differs; paths are absolute
   std::vector<CampaignFile> files;
+  RunInput run;  // without what differs; paths are absolute
   campaigns::DesignInput design;
+  std::optional<DiagnosisCampaignInput> diagnosis;  // instead of runs; paths are absolute
+
+  std::uint64_t seed() const { return diagnosis.has_value() ? 1 : design.seed; }  // a diagnosis draws nothing by it
 
   /// The content of campaign.json (rollrig-campaign/1).
   std::string to_text() const;
@@ -32,6 +36,7 @@ struct CampaignDefinition {
 
 /// What `input` says, with its factors; without the files. Throws InputError.
 CampaignDefinition make_definition(const RunCampaignInput& input);
+CampaignDefinition make_definition(const DiagnosisCampaignInput& input);
 
 /// Throws InputError where the program is of another version. `path` is for messages.
 void require_same_version(const CampaignDefinition& definition, const std::string& path);
@@ -47,6 +52,7 @@ class FileWatch {
   /// Throws CampaignChanged for a file that is none of them, such as a tire of the same name in another folder of
   /// assets.
   void require_known(const std::vector<std::string>& paths) const;
+  bool knows(const std::string& path) const;
 
  private:
   struct Known {

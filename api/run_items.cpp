@@ -41,7 +41,7 @@ Json RunItems::describe(std::size_t item) const {
 Json RunItems::carry_out(std::size_t item, std::uint64_t seed) const {
   const ReadRecorder recorder;
   Json result = scenarios::run_scenario(read(calc_values(item), seed), {}).result;
-  if (watch_.has_value()) watch_->require_known(recorder.list_files());
+  require_known(recorder.list_files());
   return result;
 }
 
@@ -68,11 +68,7 @@ std::vector<CampaignFile> RunItems::check() const {
       check_at(values);
     }
   }
-  std::vector<CampaignFile> files;
-  for (const std::string& path : recorder.list_files()) {
-    files.push_back({path, calc_sha256(read_binary_file(path))});
-  }
-  return files;
+  return hash_files(recorder.list_files());
 }
 
 scenarios::RunSpec RunItems::read(const std::vector<std::string>& values, std::uint64_t seed) const {

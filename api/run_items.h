@@ -2,39 +2,33 @@
 /// The runs of a campaign as items.
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "api/campaign_definition.h"
-#include "campaigns/items.h"
+#include "api/campaign_items.h"
+#include "scenarios/run/flat_results.h"
 #include "scenarios/run/scenario.h"
 
 namespace rollrig {
 
-class RunItems : public campaigns::ItemList {
+class RunItems : public CampaignItems {
  public:
   /// Throws InputError for a design that cannot be made.
   explicit RunItems(const CampaignDefinition& definition);
-
-  /// Throws InputError where a file of the campaign has changed. To be called before the first item is carried out.
-  void watch_files(const std::vector<CampaignFile>& files) { watch_.emplace(files); }
-  void require_unchanged() const override {
-    if (watch_.has_value()) watch_->require_unchanged();
-  }
 
   std::size_t count() const override { return design_->count_items(); }
   Json describe(std::size_t item) const override;
   Json carry_out(std::size_t item, std::uint64_t seed) const override;
 
   /// The keys of the factors.
-  std::vector<std::string> list_keys() const;
+  std::vector<std::string> list_keys() const override;
   /// The value of each factor.
-  std::vector<std::string> calc_values(std::size_t item) const { return design_->calc_values(item); }
+  std::vector<std::string> calc_values(std::size_t item) const override { return design_->calc_values(item); }
   /// Reads and prepares items: of a grid its first and its last item and one with each word or path that a factor
-  /// takes, of draws the item at the median of each factor. Carries out one item, in the quicker fidelity. Returns the
-  /// files that were read. Throws InputError where one of the items is wrong.
-  std::vector<CampaignFile> check() const;
+  /// takes, of draws the item at the median of each factor. Carries out one item, in the quicker fidelity.
+  std::vector<CampaignFile> check() const override;
+  void learn_names(const Json& result) override { flattener_.learn_names(result); }
+  Json flatten(const Json& result) const override { return flattener_.flatten(result); }
 
  private:
   scenarios::RunSpec read(const std::vector<std::string>& values, std::uint64_t seed) const;
@@ -42,7 +36,7 @@ class RunItems : public campaigns::ItemList {
   RunInput run_;
   std::vector<campaigns::Factor> factors_;
   std::unique_ptr<campaigns::Design> design_;
-  std::optional<FileWatch> watch_;
+  scenarios::ResultFlattener flattener_;
 };
 
 }  // namespace rollrig

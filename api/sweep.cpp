@@ -4,24 +4,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numeric>
 
-#include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/split.hpp>
 
 #include "api/data.h"
+#include "api/sweep_items.h"
+#include "campaigns/items.h"
+#include "campaigns/store.h"
 #include "report/list_pages.h"
 #include "scenarios/run/flat_results.h"
 #include "sim/core/columns.h"
 #include "sim/core/csv.h"
-#include "sim/core/parallel.h"
+#include "sim/core/file_io.h"
+#include "sim/core/parse_json.h"
 #include "sim/core/text.h"
+
+namespace fs = std::filesystem;
 
 namespace rollrig {
 
 struct Sweep::Data {
-  SweepInput input;
-  std::vector<std::vector<std::string>> points;
-  std::vector<scenarios::RunSpec> specs;
+  SweepItems items;
+  scenarios::RunSpec first;
 };
 
 namespace {
@@ -57,15 +64,15 @@ void require_few_points(const std::vector<SweepAxis>& axes) {
     for (const SweepAxis& each : axes) counts.push_back(fmt::format("{} of {}", each.values.size(), each.key));
     throw InputError({"too many points in a sweep", "command line", 0, "--vary",
                       fmt::format("{}: every value with every other", fmt::join(counts, ", ")),
-                      fmt::format("at most {} points", kMostSweepPoints), ""});
+                      fmt::format("at most {} points; rollrig campaign takes more", kMostSweepPoints), ""});
   }
 }
 
 /// Every combination of the axes' values, the last axis fastest.
-std::vector<std::vector<std::string>> make_grid(const std::vector<SweepAxis>& axes) {
-  std::vector<std::vector<std::string>> grid{{}};
+std::vector<SweepPoint> make_grid(const std::vector<SweepAxis>& axes) {
+  std::vector<SweepPoint> grid{{}};
   for (const SweepAxis& axis : axes) {
-    std::vector<std::vector<std::string>> longer;
+    std::vector<SweepPoint> longer;
     for (const auto& point : grid) {
       for (const std::string& value : axis.values) {
         longer.push_back(point);
@@ -206,47 +213,84 @@ SweepAxis read_sweep_axis(const std::string& text) {
 Sweep::Sweep(const SweepInput& input) {
   require_once(input);
   require_few_points(input.axes);
-  const auto data = std::make_shared<Data>(Data{input, make_grid(input.axes), {}});
-  for (const auto& point : data->points) {
-    RunInput run = input.run;
-    for (std::size_t i = 0; i < point.size(); ++i) run.settings.push_back(input.axes[i].key + "=" + point[i]);
-    data->specs.push_back(read_run(run));
-    scenarios::prepare_run(data->specs.back());  // says what is wrong before the first is carried out
-  }
+  SweepItems items(input, make_grid(input.axes));
+  items.check();
+  scenarios::RunSpec first = items.read(0);
   std::vector<std::string> declared;
-  for (const scenarios::ResultInfo& info : data->specs.front().scenario->results) declared.push_back(info.key);
+  for (const scenarios::ResultInfo& info : first.scenario->results) declared.push_back(info.key);
   require_declared(input.shown, declared);
-  data_ = data;
+  data_ = std::make_shared<Data>(Data{std::move(items), std::move(first)});
+}
+
+namespace {
+
+constexpr const char* kDefinitionFile = "sweep_definition.json";
+
+/// Makes the folder in which points are kept. Throws InputError where it holds those of another sweep.
+void open_kept(const campaigns::CampaignFolder& folder) {
+  const std::string file = (fs::path(folder.path) / kDefinitionFile).string();
+  if (!is_there(folder.path)) {
+    write_folder(folder.path, {{kDefinitionFile, folder.definition}});
+  } else if (!is_there(file) || read_text_file(file) != folder.definition) {
+    throw InputError({fmt::format("'{}' holds what is done of another sweep", folder.path), folder.path, 0, "", "",
+                      "the settings, files and version of that sweep, to go on with it; or no such folder", ""});
+  }
+}
+
+/// All points, in their order.
+std::vector<campaigns::Record> carry_out_points(const SweepItems& items, std::uint64_t seed,
+                                                const std::function<void(double)>& advance) {
+  const SweepInput& input = items.input();
+  const campaigns::CampaignFolder folder{input.kept_in, items.define(seed), seed};
+  std::vector<campaigns::Record> records(items.count());
+  const auto take = [&records](const campaigns::Record& record) { records.at(record.item) = record; };
+  if (input.kept_in.empty()) {
+    std::vector<std::size_t> all(items.count());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    campaigns::carry_out_each(items, folder, all, input.threads, take, advance);
+  } else {
+    open_kept(folder);
+    campaigns::carry_out_items(items, folder, {1, 1}, input.threads, advance);
+    campaigns::read_records(folder.list_files(), folder.definition, take);
+  }
+  return records;
+}
+
+}  // namespace
+
+void Sweep::remove_kept() const {
+  const std::string& folder = data_->items.input().kept_in;
+  if (!folder.empty() && is_there((fs::path(folder) / kDefinitionFile).string())) fs::remove_all(folder);
 }
 
 SweepResult Sweep::carry_out(const Progress& progress) const {
-  const std::vector<scenarios::RunSpec>& specs = data_->specs;
-  std::vector<Json> results(specs.size(), Json::object());
-  std::vector<std::string> manifests(specs.size());
-  SweepResult sweep;
-  sweep.failures.resize(specs.size());
-  const auto carry_out_one = [&](std::size_t i) {
-    try {
-      const scenarios::Outcome outcome = scenarios::run_scenario(specs[i], {});
-      results[i] = outcome.result;
-      manifests[i] = to_text(scenarios::make_manifest(specs[i], outcome));
-    } catch (const RunFailure& failure) {  // the other points are still worth having
-      sweep.failures[i] = boost::algorithm::replace_all_copy(std::string(failure.what()), "\n", "; ");
-    }
-  };
   const auto advance = [&progress](double done) {
     if (progress) progress(done, "");
   };
-  parallel_for(specs.size(), data_->input.threads, carry_out_one, advance);
-  for (const SweepAxis& axis : data_->input.axes) sweep.axes.push_back(axis.key);
-  sweep.points = data_->points;
-  if (sweep.count_failures() == specs.size()) {
+  const SweepItems& items = data_->items;
+  const scenarios::RunSpec& first = data_->first;
+  const std::vector<campaigns::Record> records = carry_out_points(items, first.seed, advance);
+  SweepResult sweep;
+  std::vector<Json> results(records.size(), Json::object());
+  Json manifests = Json::array();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    sweep.failures.push_back(records[i].failure);
+    manifests.push_back(nullptr);
+    if (!records[i].failure.empty()) continue;
+    Json stored = parse_json(records[i].result, fmt::format("point {}", i + 1));
+    results[i] = std::move(stored["result"]);
+    manifests.back() = std::move(stored["manifest"]);
+  }
+  for (const SweepAxis& axis : items.input().axes) sweep.axes.push_back(axis.key);
+  sweep.points = items.points();
+  if (sweep.count_failures() == records.size()) {
+    remove_kept();
     throw RunFailure(
         fmt::format("no point of the sweep could be simulated. {}: {}", name_point(sweep, 0), sweep.failures.front()));
   }
-  const Json json = make_json(specs.front().scenario->text.name, sweep, results);
+  const Json json = make_json(first.scenario->text.name, sweep, results);
   const std::vector<Json> numbers = scenarios::flatten_results(results);
-  const Json flat = make_json(specs.front().scenario->text.name, sweep, numbers);
+  const Json flat = make_json(first.scenario->text.name, sweep, numbers);
   sweep.results = report::list_numbers(flat);
   for (const Json& result : numbers) {
     sweep.values.emplace_back();
@@ -255,24 +299,22 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
       sweep.values.back().push_back(value.is_number() ? value.get<double>() : std::nan(""));
     }
   }
-  const std::vector<std::string> shown = choose_shown(data_->input.shown, flat, sweep);
+  const std::vector<std::string> shown = choose_shown(items.input().shown, flat, sweep);
   sweep.json = to_text(json);
-  sweep.text = format_table(report::make_sweep_table(flat, format_count(specs.size(), "run"), shown));
+  sweep.text = format_table(report::make_sweep_table(flat, format_count(records.size(), "run"), shown));
   sweep.text += list_failures(sweep);
   if (shown.size() < sweep.results.size()) {
     sweep.text += wrap(fmt::format("{} of {} results are shown. --show names others, --out and --json write all.",
                                    shown.size(), sweep.results.size()),
                        0);
   }
-  FolderFiles files{{"sweep.csv", make_csv(sweep)}, {"sweep.json", sweep.json}};
-  for (std::size_t i = 0; i < specs.size(); ++i) {
-    if (sweep.failures[i].empty()) files.emplace_back(fmt::format("manifests/{:04}.json", i + 1), manifests[i]);
-  }
+  const Json all_manifests{{"format", "rollrig-manifests/1"}, {"manifests", manifests}};
+  const FolderFiles files{
+      {"sweep.csv", make_csv(sweep)}, {"sweep.json", sweep.json}, {"manifests.json", to_text(all_manifests)}};
   sweep.make_files = [files] { return files; };
   sweep.make_page = [flat, data = data_] {
-    const scenarios::RunSpec& spec = data->specs.front();
-    const std::string of = fmt::format("Tire {}, rig {}", spec.tire.name, spec.rig.name);
-    return report::make_html(report::make_sweep_page(flat, data->input.shown, of));
+    const std::string of = fmt::format("Tire {}, rig {}", data->first.tire.name, data->first.rig.name);
+    return report::make_html(report::make_sweep_page(flat, data->items.input().shown, of));
   };
   return sweep;
 }

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <mutex>
 #include <regex>
+#include <set>
 
-#include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/replace.hpp>
 
 #include "campaigns/store.h"
@@ -34,7 +34,7 @@ std::string calc_identity(const CampaignFolder& folder, const Json& description,
 Record carry_out_one(const ItemList& list, const CampaignFolder& folder, std::size_t item) {
   Record record;
   record.item = item;
-  record.seed = calc_item_seed(folder.seed, item);
+  record.seed = list.calc_seed(item, folder.seed);
   record.identity = calc_identity(folder, list.describe(item), record.seed);
   const auto fail = [&record](const std::exception& error) {
     record.failure = boost::algorithm::replace_all_copy(std::string(error.what()), "\n", "; ");
@@ -54,42 +54,16 @@ Record carry_out_one(const ItemList& list, const CampaignFolder& folder, std::si
   return record;
 }
 
-/// Says once a second what the file of a part has, and takes that away at the end.
-class ProgressFile {
- public:
-  explicit ProgressFile(std::string path) : path_(std::move(path)) {}
-  ~ProgressFile() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  ProgressFile(const ProgressFile&) = delete;
-  ProgressFile& operator=(const ProgressFile&) = delete;
-
-  void write(const Tally& tally) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now < next_) return;
-    next_ = now + std::chrono::seconds(1);
-    try {
-      write_file_atomically(path_, to_text(Json{{"done", tally.done}, {"failed", tally.failed}}) + "\n");
-    } catch (const InputError&) {  // results are worth more than the word on how many there are
-    }
-  }
-
-  /// What a process says; nothing where it has just begun, or just ended.
-  static Tally read(const std::string& path) {
-    std::ifstream in(path);
-    const Json said = Json::parse(in, nullptr, false);
-    const auto read_count = [&said](const char* key) {
-      const bool is_count = said.is_object() && said.contains(key) && said[key].is_number_unsigned();
-      return is_count ? said[key].get<std::size_t>() : 0;
-    };
-    return {0, read_count("done"), read_count("failed")};
-  }
-
- private:
-  std::string path_;
-  std::chrono::steady_clock::time_point next_{};
-};
+/// What a process says of the file that it writes; nothing where it has just begun, or just ended.
+Tally read_progress(const std::string& results) {
+  std::ifstream in(progress_file_of(results));
+  const Json said = Json::parse(in, nullptr, false);
+  const auto read_count = [&said](const char* key) {
+    const bool is_count = said.is_object() && said.contains(key) && said[key].is_number_unsigned();
+    return is_count ? said[key].get<std::size_t>() : 0;
+  };
+  return {0, read_count("done"), read_count("failed")};
+}
 
 /// The items that some files have.
 struct DoneItems {
@@ -111,7 +85,15 @@ struct DoneItems {
     read_items(file, folder.definition, [&](std::size_t item, bool failed) { add(file, item, failed); });
   }
 
-  /// Of a part alone.
+  /// Of a part alone, as the next one.
+  std::vector<std::size_t> list_open(const Part& part) const {
+    std::vector<std::size_t> open;
+    for (std::size_t item = part.number - 1; item < is_done.size(); item += part.count) {
+      if (!is_done[item]) open.push_back(item);
+    }
+    return open;
+  }
+
   Tally count(const Part& part) const {
     Tally tally{part.count_of(is_done.size()), 0, 0};
     for (std::size_t item = part.number - 1; item < is_done.size(); item += part.count) {
@@ -125,11 +107,11 @@ struct DoneItems {
 /// Files of other numbers of parts that nobody writes now. Other parts of the same number have no items of this one,
 /// and their processes are left alone.
 std::vector<std::string> list_other_splits(const CampaignFolder& folder, const Part& part) {
-  const std::string own = folder.file_of(part);
-  const std::string same_split = own.substr(own.rfind("_of_"));
+  std::set<std::string> same_split;
+  for (std::size_t number = 1; number <= part.count; ++number) same_split.insert(folder.file_of({number, part.count}));
   std::vector<std::string> others;
   for (const std::string& file : folder.list_files()) {
-    if (!boost::algorithm::ends_with(file, same_split) && !is_in_use(file)) others.push_back(file);
+    if (same_split.count(file) == 0 && !is_in_use(file)) others.push_back(file);
   }
   return others;
 }
@@ -140,8 +122,12 @@ std::string CampaignFolder::file_of(const Part& part) const {
   return (fs::path(path) / fmt::format("results_{:04}_of_{:04}.sqlite", part.number, part.count)).string();
 }
 
+std::string CampaignFolder::file_of_worker(const Part& worker) const {
+  return (fs::path(path) / fmt::format("results_mpi_{:04}_of_{:04}.sqlite", worker.number, worker.count)).string();
+}
+
 std::vector<std::string> CampaignFolder::list_files() const {
-  static const std::regex name("results(_[0-9]+_of_[0-9]+)?\\.sqlite");
+  static const std::regex name("results((_mpi)?_[0-9]+_of_[0-9]+)?\\.sqlite");
   std::vector<std::string> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
     const bool is_file = entry.is_regular_file() && !entry.is_symlink();
@@ -152,9 +138,79 @@ std::vector<std::string> CampaignFolder::list_files() const {
   return files;
 }
 
+std::uint64_t ItemList::calc_seed(std::size_t item, std::uint64_t campaign_seed) const {
+  return calc_item_seed(campaign_seed, item);
+}
+
 std::uint64_t calc_item_seed(std::uint64_t campaign_seed, std::size_t item) {
   const std::string hash = calc_sha256(fmt::format("seed {} item {}", campaign_seed, item));
   return std::strtoull(hash.substr(0, 8).c_str(), nullptr, 16) >> 1U;
+}
+
+/// Says once a second what the file has, and takes that away at the end.
+class ResultsFile::Progress {
+ public:
+  explicit Progress(std::string path) : path_(std::move(path)) {}
+  ~Progress() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void write(const Tally& tally) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_) return;
+    next_ = now + std::chrono::seconds(1);
+    try {
+      write_file_atomically(path_, to_text(Json{{"done", tally.done}, {"failed", tally.failed}}) + "\n");
+    } catch (const InputError&) {  // results are worth more than the word on how many there are
+    }
+  }
+
+ private:
+  std::string path_;
+  std::chrono::steady_clock::time_point next_{};
+};
+
+ResultsFile::ResultsFile(const std::string& path, const CampaignFolder& folder)
+    : store_(path, folder.definition), progress_(std::make_unique<Progress>(progress_file_of(path))) {
+  store_.list_items([this](std::size_t, bool has_failed) { tally_.add(has_failed); });
+  progress_->write(tally_);
+}
+
+ResultsFile::~ResultsFile() = default;
+
+void ResultsFile::list_items(const std::function<void(std::size_t item, bool has_failed)>& take) const {
+  store_.list_items(take);
+}
+
+void ResultsFile::write(const Record& record) {
+  store_.write(record);
+  tally_.add(!record.failure.empty());
+  progress_->write(tally_);
+}
+
+void ResultsFile::close() { store_.close(); }
+
+void carry_out_each(const ItemList& list, const CampaignFolder& folder, const std::vector<std::size_t>& items,
+                    int threads, const std::function<void(const Record&)>& take,
+                    const std::function<void(double)>& advance) {
+  std::size_t finished = 0;
+  std::mutex mutex;
+  parallel_for(items.size(), threads, [&](std::size_t i) {
+    const Record record = carry_out_one(list, folder, items[i]);
+    const std::lock_guard<std::mutex> lock(mutex);
+    take(record);
+    ++finished;
+    if (advance) advance(static_cast<double>(finished) / static_cast<double>(items.size()));
+  });
+}
+
+OpenItems find_open_items(const ItemList& list, const CampaignFolder& folder) {
+  DoneItems done(list.count());
+  for (const std::string& file : folder.list_files()) done.add(folder, file);
+  return {done.list_open({1, 1}), done.count({1, 1})};
 }
 
 Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Part& part, int threads,
@@ -164,35 +220,15 @@ Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const 
   const std::string path = folder.file_of(part);
   Tally tally = done.count(part);
   if (tally.done == tally.items && !is_there(path)) return tally;
-  Store store(path, folder.definition);
-  ProgressFile progress(progress_file_of(path));  // only now: another process may work on the part
-  Tally own;  // of this file: `status` adds it to those of the files that it can read
-  store.list_items([&](std::size_t item, bool has_failed) {
-    done.add(path, item, has_failed);
-    ++own.done;
-    if (has_failed) ++own.failed;
-  });
+  ResultsFile file(path, folder);
+  file.list_items([&](std::size_t item, bool has_failed) { done.add(path, item, has_failed); });
   tally = done.count(part);
-  progress.write(own);
-  std::vector<std::size_t> open;
-  for (std::size_t item = part.number - 1; item < list.count(); item += part.count) {
-    if (!done.is_done[item]) open.push_back(item);
-  }
-  std::size_t finished = 0;
-  std::mutex mutex;
-  parallel_for(open.size(), threads, [&](std::size_t i) {
-    const Record record = carry_out_one(list, folder, open[i]);
-    const std::lock_guard<std::mutex> lock(mutex);
-    store.write(record);
-    for (Tally* counts : {&tally, &own}) {
-      ++counts->done;
-      if (!record.failure.empty()) ++counts->failed;
-    }
-    progress.write(own);
-    ++finished;
-    if (advance) advance(static_cast<double>(finished) / static_cast<double>(open.size()));
-  });
-  store.close();
+  const auto take = [&](const Record& record) {
+    file.write(record);
+    tally.add(!record.failure.empty());
+  };
+  carry_out_each(list, folder, done.list_open(part), threads, take, advance);
+  file.close();
   return tally;
 }
 
@@ -208,7 +244,7 @@ FolderState read_state(const CampaignFolder& folder, std::size_t items) {
   }
   state.tally = done.count({1, 1});
   for (const std::string& file : state.running) {
-    const Tally said = ProgressFile::read(progress_file_of(file));
+    const Tally said = read_progress(file);
     state.tally.done = std::min(items, state.tally.done + said.done);
     state.tally.failed = std::min(items, state.tally.failed + said.failed);
   }

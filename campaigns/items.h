@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "campaigns/part.h"
+#include "campaigns/store.h"
 #include "include/rollrig/error.h"
 #include "sim/core/json.h"
 
@@ -30,6 +32,8 @@ class ItemList {
   /// The result. Throws RunFailure or InputError for an item that cannot be carried out, CampaignChanged, FileProblem
   /// and Interrupted where no item can be. Called from several threads.
   virtual Json carry_out(std::size_t item, std::uint64_t seed) const = 0;
+  /// Of an item of a campaign with this seed; carry_out() gets it.
+  virtual std::uint64_t calc_seed(std::size_t item, std::uint64_t campaign_seed) const;
   /// Throws CampaignChanged where what the items are made from, such as a file, is no longer what it was. Called after
   /// each item, before its result counts.
   virtual void require_unchanged() const {}
@@ -43,7 +47,9 @@ struct CampaignFolder {
 
   /// The file of a part's results: "results_0003_of_0010.sqlite".
   std::string file_of(const Part& part) const;
-  /// All files of results, "results.sqlite" and those of parts, by name.
+  /// The file of a process to which items are handed out: "results_mpi_0003_of_0010.sqlite".
+  std::string file_of_worker(const Part& worker) const;
+  /// All files of results, "results.sqlite" and those of processes, by name.
   std::vector<std::string> list_files() const;
 };
 
@@ -55,6 +61,50 @@ struct Tally {
   std::size_t items = 0;  // in all
   std::size_t done = 0;   // carried out, with those that failed
   std::size_t failed = 0;
+
+  /// One more item.
+  void add(bool has_failed) {
+    ++done;
+    if (has_failed) ++failed;
+  }
+};
+
+/// Carries out some items, without a file. `take` gets each record as soon as it is there, one at a time, in no order;
+/// `advance` is called after it, with the fraction of the items that is done. Throws Interrupted, and InputError as
+/// ItemList does.
+void carry_out_each(const ItemList& list, const CampaignFolder& folder, const std::vector<std::size_t>& items,
+                    int threads, const std::function<void(const Record&)>& take,
+                    const std::function<void(double)>& advance = {});
+
+/// The items that no file of the folder has, and how many there are that one has. Throws InputError where a process
+/// writes one of the files.
+struct OpenItems {
+  std::vector<std::size_t> items;
+  Tally tally;
+};
+OpenItems find_open_items(const ItemList& list, const CampaignFolder& folder);
+
+/// The file of results of this process, with what it says to others of how many it has.
+class ResultsFile {
+ public:
+  /// Throws InputError as Store does.
+  ResultsFile(const std::string& path, const CampaignFolder& folder);
+  ~ResultsFile();
+  ResultsFile(const ResultsFile&) = delete;
+  ResultsFile& operator=(const ResultsFile&) = delete;
+
+  /// What it has from an earlier session.
+  void list_items(const std::function<void(std::size_t item, bool has_failed)>& take) const;
+  void write(const Record& record);
+  /// As Store has it.
+  void close();
+
+ private:
+  class Progress;
+
+  Store store_;
+  std::unique_ptr<Progress> progress_;  // only after the store: another process may write the file
+  Tally tally_;                         // of this file: `status` adds it to those of the files that it can read
 };
 
 /// Carries out the items of a part that no file of the folder has, and writes each as soon as it is done. `advance` is

@@ -66,8 +66,21 @@ std::optional<Part> find_array_part(const Environment& environment) {
   return std::nullopt;
 }
 
-/// Of the processes that one launcher has started. mpirun and srun stand before the batch job's own variables, which
-/// are also there in a job's script, where a program runs once.
+}  // namespace
+
+Part read_part(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const std::optional<double> part = parse_number(text.substr(0, slash));
+  const std::optional<double> parts = slash == std::string::npos ? std::nullopt : parse_number(text.substr(slash + 1));
+  const bool is_share = part.has_value() && parts.has_value() && is_count(*part) && is_count(*parts) && *part >= 1.0 &&
+                        *part <= *parts && *parts <= kMostParts;
+  if (is_share) return {static_cast<std::size_t>(*part), static_cast<std::size_t>(*parts)};
+  throw InputError({fmt::format("--shard '{}' is no part", text), "command line", 0, "--shard", text,
+                    fmt::format("I/N with 1 <= I <= N <= {:.0f}, as 3/10", kMostParts), ""});
+}
+
+// mpirun and srun stand before the batch job's own variables, which are also there in a job's script, where a program
+// runs once.
 std::optional<Part> find_process_part(const Environment& environment) {
   struct Launcher {
     const char* rank;
@@ -84,19 +97,6 @@ std::optional<Part> find_process_part(const Environment& environment) {
   const auto size = read_count(environment, "SLURM_STEP_NUM_TASKS");
   if (rank.has_value() && size.has_value()) return make_part("SLURM_PROCID", *rank + 1, *size);
   return std::nullopt;
-}
-
-}  // namespace
-
-Part read_part(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  const std::optional<double> part = parse_number(text.substr(0, slash));
-  const std::optional<double> parts = slash == std::string::npos ? std::nullopt : parse_number(text.substr(slash + 1));
-  const bool is_share = part.has_value() && parts.has_value() && is_count(*part) && is_count(*parts) && *part >= 1.0 &&
-                        *part <= *parts && *parts <= kMostParts;
-  if (is_share) return {static_cast<std::size_t>(*part), static_cast<std::size_t>(*parts)};
-  throw InputError({fmt::format("--shard '{}' is no part", text), "command line", 0, "--shard", text,
-                    fmt::format("I/N with 1 <= I <= N <= {:.0f}, as 3/10", kMostParts), ""});
 }
 
 std::optional<Part> find_part(const Environment& environment) {

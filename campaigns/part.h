@@ -32,5 +32,7 @@ using Environment = std::function<const char*(const char*)>;
 /// Source   sbatch(1), srun(1), mpirun(1), qsub(1)
 /// Errors   InputError: a variable that is no number, a number beyond what it counts, a job array with gaps
 std::optional<Part> find_part(const Environment& environment);
+/// Of the processes that one launcher has started alone.
+std::optional<Part> find_process_part(const Environment& environment);
 
 }  // namespace rollrig::campaigns

@@ -36,7 +36,7 @@ auto with_file(const std::string& path, const char* busy, const Use& use) {
     std::string what = fmt::format("cannot use the file of results: {}", error.what());
     std::string allowed = "a file that rollrig campaign has written, in a folder that can be written to";
     if (code == SQLITE_BUSY) {
-      what = "another process works on this part of the campaign";
+      what = "another process writes this file of results";
       allowed = busy;
     } else if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) {
       what = "this is no file of a campaign's results, or it is damaged";
@@ -48,7 +48,8 @@ auto with_file(const std::string& path, const char* busy, const Use& use) {
   }
 }
 
-constexpr const char* kOnePartEach = "one process for each part: --shard I/N, each with its own I";
+constexpr const char* kOnePartEach =
+    "to wait until it has ended; of a campaign, one process for each part: --shard I/N";
 constexpr const char* kWait = "to wait until the process has ended; see rollrig campaign status";
 
 /// Opens a file for this process alone. In this mode, set before the file is first read, SQLite needs no memory that

@@ -62,6 +62,13 @@ inline void add_threads(CLI::App& command, int& threads,
   command.add_option("--threads", threads, doc)->check(CLI::Range(1, 1024));
 }
 
+/// For a command that does not share its work: throws InputError where mpirun or srun has started several processes,
+/// each of which would do all of it. Warns in a task of a job array, unless `quiet`: other tasks may do the same.
+void require_one_process(const std::string& command, const std::string& instead, bool quiet);
+
+/// --smallest-effect.
+void add_smallest_effect(CLI::App& command, double& percent);
+
 /// --skip-bad-rows.
 inline void add_skip_bad_rows(CLI::App& command, BadRows& bad_rows) {
   command.add_flag_callback(

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -9,8 +10,10 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
-#include "rollrig/run_campaign.h"
+#include "rollrig/item_campaign.h"
+#include "rollrig/measurement_set.h"
 #include "sim/core/columns.h"
+#include "sim/core/shell_word.h"
 #include "sim/core/text.h"
 
 namespace rollrig::cli {
@@ -23,8 +26,17 @@ struct NewCampaignOptions {
   bool quiet = false;
 };
 
+struct NewDiagnosesOptions {
+  std::string folder;
+  std::string sets;
+  ComparisonOptions comparison;
+  DiagnosisCampaignInput input;
+  bool quiet = false;
+};
+
 struct CampaignRunOptions {
   std::string folder;
+  bool is_over_mpi = false;
   std::string shard;
   int threads = 0;
   bool has_program_progress = false;
@@ -55,13 +67,32 @@ struct SlurmOptions {
   std::size_t tasks = 1;
 };
 
+void say_next(const std::string& folder) {
+  std::cout << ItemCampaign(folder).read_state().text
+            << wrap(fmt::format("Next: rollrig campaign run {}", quote_for_shell(folder)), 0);
+}
+
 int new_campaign_command(const NewCampaignOptions& options) {
   RunCampaignInput input = options.input;
   for (const std::string& text : options.vary) input.axes.push_back(read_sweep_axis(text));
   define_run_campaign(input, options.folder);
-  if (options.quiet) return kDone;
-  std::cout << RunCampaign(options.folder).read_state().text
-            << wrap(fmt::format("Next: rollrig campaign run {}", options.folder), 0);
+  if (!options.quiet) say_next(options.folder);
+  return kDone;
+}
+
+int new_diagnoses_command(const NewDiagnosesOptions& options) {
+  options.comparison.check();
+  DiagnosisCampaignInput input = options.input;
+  input.sets = find_sets(options.sets);
+  input.only = options.comparison.only;
+  input.without = options.comparison.without;
+  if (input.sets.empty()) {
+    throw usage_error(fmt::format("'{}' is no folder of measurement sets", options.sets), "sets", options.sets,
+                      "a folder of folders that have a set.toml");
+  }
+  if (!options.quiet) warn_of_undescribed(options.sets);
+  define_diagnosis_campaign(input, options.folder);
+  if (!options.quiet) say_next(options.folder);
   return kDone;
 }
 
@@ -71,11 +102,31 @@ CampaignPart choose_part(const std::string& asked) {
   return find_campaign_part().value_or(CampaignPart{});
 }
 
+/// Becomes the program that shares the items over MPI, which stands beside this one.
+void start_over_mpi(const CampaignRunOptions& options) {
+  if (!options.shard.empty() || options.threads > 0) {
+    throw usage_error("with --mpi, the first process hands out the items, to one thread of each of the others",
+                      options.shard.empty() ? "--threads" : "--shard", options.shard, "--mpi alone");
+  }
+  const std::string program = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rollrig_mpi").string();
+  std::vector<std::string> words{program, options.folder};
+  if (options.has_program_progress) words.emplace_back("--progress");
+  if (options.output.quiet) words.emplace_back("--quiet");
+  if (!options.output.json.empty()) words.insert(words.end(), {"--json", options.output.json});
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execv(program.c_str(), arguments.data());
+  throw usage_error("this rollrig was built without MPI", "--mpi", "",
+                    "a build where Open MPI's libopenmpi-dev is installed; or --shard");
+}
+
 int campaign_run_command(const CampaignRunOptions& options) {
-  const RunCampaign campaign(options.folder);
+  if (options.is_over_mpi) start_over_mpi(options);
+  const ItemCampaign campaign(options.folder);
   const CampaignPart part = choose_part(options.shard);
   Output output(options.output);
-  RunCampaignState state;
+  CampaignState state;
   try {
     ProgressLine progress("campaign", options.output.quiet,
                           options.has_program_progress ? ProgressReader::kProgram : ProgressReader::kPerson);
@@ -90,13 +141,13 @@ int campaign_run_command(const CampaignRunOptions& options) {
 
 int campaign_status_command(const CampaignFolderOptions& options) {
   Output output(options.output);
-  output.show(RunCampaign(options.folder).read_state());
+  output.show(ItemCampaign(options.folder).read_state());
   return kDone;
 }
 
 int campaign_merge_command(const CampaignFolderOptions& options) {
   Output output(options.output);
-  output.show(RunCampaign(options.folder).merge());
+  output.show(ItemCampaign(options.folder).merge());
   return kDone;
 }
 
@@ -105,9 +156,12 @@ int campaign_export_command(const CampaignExportOptions& options) {
     throw usage_error("no file to write is given", "", "", "--csv FILE, --mat FILE, --hdf5 FILE");
   }
   const OutputFiles files({{"--csv", options.csv}, {"--mat", options.mat}, {"--hdf5", options.hdf5}});
-  const RunCampaign campaign(options.folder);
+  const ItemCampaign campaign(options.folder);
   std::vector<StagedOutput> staged;
-  if (!options.csv.empty()) staged.emplace_back(options.csv, campaign.make_csv());
+  if (!options.csv.empty()) {
+    staged.emplace_back(options.csv, "");
+    campaign.write_csv([&staged](const std::string& rows) { staged.back().append(rows); });
+  }
   if (!options.mat.empty() || !options.hdf5.empty()) {
     const Export made = campaign.make_export();
     if (!options.mat.empty()) staged.emplace_back(options.mat, made.make_mat());
@@ -125,12 +179,18 @@ int campaign_export_command(const CampaignExportOptions& options) {
 
 int sensitivity_command(const SensitivityOptions& options) {
   Output output(options.output);
-  output.show(RunCampaign(options.folder).calc_sensitivity(options.result));
+  output.show(ItemCampaign(options.folder).calc_sensitivity(options.result));
+  return kDone;
+}
+
+int summary_command(const CampaignFolderOptions& options) {
+  Output output(options.output);
+  output.show(ItemCampaign(options.folder).summarize_diagnoses());
   return kDone;
 }
 
 int slurm_command(const SlurmOptions& options) {
-  std::cout << RunCampaign(options.folder)
+  std::cout << ItemCampaign(options.folder)
                    .make_slurm_job(options.tasks, std::filesystem::read_symlink("/proc/self/exe").string());
   return kDone;
 }
@@ -170,12 +230,25 @@ void add_new_campaign(CLI::App& campaign, Action& action) {
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }
 
+void add_new_diagnoses(CLI::App& campaign, Action& action) {
+  const auto [command, options] = add_command<NewDiagnosesOptions>(
+      campaign, action, "new-diagnoses", "The same for the diagnosis of many measurement sets", &new_diagnoses_command);
+  command->add_option("folder", options->folder, "Folder to make")->required();
+  command->add_option("sets", options->sets, "Folder of folders with measurement sets")->required();
+  options->comparison.add_to(*command);
+  add_smallest_effect(*command, options->input.smallest_effect_percent);
+  add_skip_bad_rows(*command, options->input.bad_rows);
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+}
+
 }  // namespace
 
 void add_campaign_command(CLI::App& app, Action& action) {
-  CLI::App* campaign = app.add_subcommand("campaign", "Many runs of a scenario: shared among processes, resumable");
+  CLI::App* campaign =
+      app.add_subcommand("campaign", "Many runs of a scenario, or many diagnoses: shared among processes, resumable");
   campaign->require_subcommand(1);
   add_new_campaign(*campaign, action);
+  add_new_diagnoses(*campaign, action);
   {
     const auto [command, options] = add_command<CampaignRunOptions>(
         *campaign, action, "run", "Carry out what is not done, of all items or of a part; also after an interruption",
@@ -184,6 +257,8 @@ void add_campaign_command(CLI::App& app, Action& action) {
     add_folder(*command, *options);
     command->add_option("--shard", options->shard,
                         "I/N: part I of N parts [what Slurm, Grid Engine, srun or mpirun says, else all]");
+    command->add_flag("--mpi", options->is_over_mpi,
+                      "Under mpirun: the first process hands out the items to the others, a few at a time");
     add_threads(*command, options->threads);
     command->add_flag("--progress", options->has_program_progress,
                       "Each second a line of JSON on standard error: the part that is done, and the seconds left");
@@ -217,6 +292,14 @@ void add_campaign_command(CLI::App& app, Action& action) {
     add_folder(*command, *options);
     command->add_option("--result", options->result, "A result, by its name in the exported table")->required();
     add_json(*command, options->output, "File for the indices, - for standard output");
+    add_html_option(*command, options->output.html);
+  }
+  {
+    const auto [command, options] = add_command<CampaignFolderOptions>(
+        *campaign, action, "summary", "Of diagnoses: the verdict on each set, and which effects come back",
+        &summary_command);
+    add_folder(*command, *options);
+    add_json(*command, options->output, "File for all diagnoses, - for standard output");
     add_html_option(*command, options->output.html);
   }
   {

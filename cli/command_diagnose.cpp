@@ -56,6 +56,7 @@ DiagnosisOptions make_options(const DiagnoseOptions& options, ProgressLine& prog
 
 /// A folder of sets.
 int diagnose_all(const DiagnoseOptions& options, const std::vector<std::string>& sets) {
+  require_one_process("diagnose", "rollrig campaign new-diagnoses and run", options.output.quiet);
   Output output(options.output);
   const FleetDiagnosis fleet = [&] {
     ProgressLine progress("diagnose", options.output.quiet);
@@ -145,9 +146,7 @@ void add_diagnose_command(CLI::App& app, Action& action) {
   command->add_flag("--test-failed", options->test_failed,
                     "The planned test of the loop could not be done; its hours count all the same");
   options->comparison.add_to(*command);
-  command->add_option("--smallest-effect", options->smallest_effect_percent,
-                      "Smallest effect of interest, 0 to 100 percent of the tire's loss or of the energy of drives; a "
-                      "smaller cause is called a trace [0.5]");
+  add_smallest_effect(*command, options->smallest_effect_percent);
   add_skip_bad_rows(*command, options->bad_rows);
   add_threads(*command, options->threads);
 }

@@ -17,17 +17,31 @@ struct SweepOptions {
   OutputOptions output;
 };
 
+/// "out.unfinished" for "out" and "out/".
+std::string name_beside(std::string folder, const char* ending) {
+  while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
+  return folder + ending;
+}
+
 int sweep_command(const SweepOptions& options) {
+  require_one_process("sweep", "rollrig campaign new and run", options.output.quiet);
   SweepInput input = options.sweep;
   for (const std::string& text : options.vary) input.axes.push_back(read_sweep_axis(text));
+  if (!options.output.folder.empty()) input.kept_in = name_beside(options.output.folder, ".unfinished");
   const Sweep sweep(input);
   Output output(options.output);
   SweepResult result;
-  {  // its line is gone before the results are printed
+  try {
     ProgressLine progress("sweep", options.output.quiet);
     result = sweep.carry_out(progress.callback());
+  } catch (const Interrupted&) {
+    if (input.kept_in.empty()) throw;
+    std::cerr << wrap(fmt::format("stopped: what was done is kept in {}; the same command goes on", input.kept_in), 2)
+                     .substr(2);
+    return kInterrupted;
   }
   output.show(result);
+  sweep.remove_kept();
   const std::size_t failed = result.count_failures();
   if (failed == 0) return kDone;
   std::cout << std::flush;
@@ -54,7 +68,7 @@ void add_sweep_command(CLI::App& app, Action& action) {
       ->delimiter(',');
   add_threads(*command, options->sweep.threads);
   options->output.add_to(*command, "File for the results, - for standard output",
-                         "Folder for sweep.csv, sweep.json, manifests/");
+                         "Folder for sweep.csv, sweep.json, manifests.json");
 }
 
 }  // namespace rollrig::cli

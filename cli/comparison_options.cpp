@@ -19,6 +19,12 @@ void require_effects(const char* option, const std::vector<std::string>& names) 
 
 }  // namespace
 
+void add_smallest_effect(CLI::App& command, double& percent) {
+  command.add_option("--smallest-effect", percent,
+                     "Smallest effect of interest, 0 to 100 percent of the tire's loss or of the energy of drives; a "
+                     "smaller cause is called a trace [0.5]");
+}
+
 void ComparisonOptions::add_to(CLI::App& command) {
   command.add_option("--without", without, "Effects left out of the comparison: a,b")->delimiter(',');
   command.add_option("--only", only, "The only effects in the comparison: a,b")->delimiter(',');

@@ -28,9 +28,9 @@ constexpr const char* kFooter =
     "Exit status: 0 done, 1 a regression differs or a set is doubtful,\n"
     "2 input or usage, 3 the run failed, 70 a mistake in rollrig itself,\n"
     "130 stopped by Ctrl-C. With 2, 3, 70 and 130 nothing is written, except\n"
-    "for the points of a sweep that did not fail (3), the items of a\n"
-    "campaign that are done (3, 130), and of several sets those that could\n"
-    "be diagnosed (2 or 3).\n";
+    "for the points of a sweep that did not fail (3), what is done of a\n"
+    "campaign or of a sweep with --out (3, 130), and of several sets those\n"
+    "that could be diagnosed (2 or 3).\n";
 
 /// A command's own examples, below its help.
 void add_examples(const CLI::App& app) {

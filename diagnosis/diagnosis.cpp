@@ -33,7 +33,7 @@ void require_smallest_effect(const DiagnosisOptions& options) {
 /// Terms in the comparison: those that can be seen on the set's machine against its baseline, less those left out.
 /// Throws InputError.
 std::vector<const Term*> find_terms(const measurements::MeasurementSet& set, const DiagnosisOptions& options) {
-  require_known_effects(options);
+  require_valid_options(options);
   std::vector<const Term*> terms =
       choose_terms(set.kind->traits, set.tire.model(set.baseline), options.only, options.without);
   if (terms.empty() && !options.only.empty()) {
@@ -251,14 +251,15 @@ double probability_of(const Findings& findings, const std::string& name) {
   return at == findings.probability.end() ? 0.0 : at->second;
 }
 
-void require_known_effects(const DiagnosisOptions& options) {
+void require_valid_options(const DiagnosisOptions& options) {
   for (const auto* named : {&options.without, &options.only}) {
     for (const std::string& name : *named) find_term(name);
   }
+  require_smallest_effect(options);
 }
 
 Diagnosis diagnose(const measurements::MeasurementSet& set, const DiagnosisOptions& options) {
-  require_smallest_effect(options);
+  require_valid_options(options);
   Diagnosis diagnosis = diagnose_all_runs(set, options);
   diagnosis.without_run = diagnose_without_runs(set, diagnosis, options);
   return diagnosis;

@@ -283,7 +283,7 @@ std::vector<Possible> judge_all(const Study& study, const std::vector<JudgedSize
 
 PlannedCampaign plan_campaign(const CampaignInput& input) {
   require_machine_hours(input.hours);
-  require_known_effects({input.without, input.only});
+  require_valid_options({input.without, input.only});
   PlannedCampaign campaign;
   campaign.set = make_usual_set(input);
   campaign.most_hours = input.hours;

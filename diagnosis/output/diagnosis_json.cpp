@@ -1,6 +1,7 @@
 #include "diagnosis/output/diagnosis_json.h"
 
 #include <cmath>
+#include <limits>
 
 #include "sim/core/error.h"
 
@@ -135,6 +136,45 @@ Json make_lone_run(const std::optional<LoneRun>& lone) {
           {"probability", finite(lone->probability)}};
 }
 
+double read_number(const Json& json) {
+  return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+Cause read_cause(const Json& json) {
+  Cause cause;
+  cause.effects = json.at("effects").get<std::vector<std::string>>();
+  cause.probability = read_number(json.at("probability"));
+  cause.indistinguishable_from = json.at("indistinguishable_from").get<std::vector<std::string>>();
+  for (const Json& of : json.at("parameters")) {
+    cause.parameters.push_back({of.at("name").get<std::string>(), read_number(of.at("value")), read_number(of.at("sd")),
+                                read_number(of.at("low_95")), read_number(of.at("high_95")),
+                                of.at("unit").get<std::string>()});
+  }
+  const auto read_optional = [&json](const char* key) -> std::optional<double> {
+    return json.contains(key) && json[key].is_number() ? std::optional<double>(json[key].get<double>()) : std::nullopt;
+  };
+  cause.acts = read_optional("acts");
+  cause.alone = read_optional("alone");
+  cause.complete = read_optional("complete");
+  cause.adequate = json.at("adequate").get<bool>();
+  cause.objections = json.at("objections").get<std::vector<std::string>>();
+  return cause;
+}
+
+Location read_location(const Json& json) {
+  Location at;
+  at.channel = json.at("channel").get<std::string>();
+  at.run = json.at("run").get<std::string>();
+  at.phase = json.at("phase").get<std::string>();
+  at.share_percent = read_number(json.at("share_percent"));
+  at.size = read_number(json.at("size"));
+  at.unit = json.at("unit").get<std::string>();
+  at.z = read_number(json.at("z"));
+  at.start_s = read_number(json.at("start_s"));
+  at.end_s = read_number(json.at("end_s"));
+  return at;
+}
+
 }  // namespace
 
 const char* name_of(Verdict verdict) {
@@ -184,6 +224,32 @@ Json make_diagnosis_json(const Findings& findings) {
           {"not_excluded", findings.not_excluded},
           {"without_run", make_lone_run(findings.without_run)},
           {"warnings", findings.warnings}};
+}
+
+Findings read_diagnosis_json(const Json& json) {
+  Findings read;
+  read.set = json.at("set").get<std::string>();
+  read.verdict = read_verdict(json.at("verdict").get<std::string>());
+  for (const auto& [name, value] : json.at("probability").items()) read.probability[name] = read_number(value);
+  for (const Json& cause : json.at("causes")) read.causes.push_back(read_cause(cause));
+  if (json.contains("trace") && json["trace"].is_object()) read.trace = read_cause(json["trace"]);
+  if (json.contains("nothing_detectable") && json["nothing_detectable"].is_number()) {
+    read.nothing_detectable = json["nothing_detectable"].get<double>();
+  }
+  const Json& gap = json.at("gap");
+  const auto read_view = [&gap](const char* key) -> GapView {
+    return {read_number(gap.at(key).at("before")), read_number(gap.at(key).at("after"))};
+  };
+  read.gap.as_calibrated = read_view("as_calibrated");
+  read.gap.recalibrated = read_view("recalibrated");
+  if (gap.at("shrink_percent").is_number()) read.gap.shrink_percent = gap.at("shrink_percent").get<double>();
+  for (const Json& of : json.at("next_test")) {
+    read.next_tests.push_back({of.at("test").get<std::string>(), of.at("splits").get<std::vector<std::string>>(),
+                               read_number(of.at("expected_bits_per_hour")), read_number(of.at("hours"))});
+  }
+  for (const Json& at : json.value("where", Json::array())) read.where.push_back(read_location(at));
+  read.warnings = json.value("warnings", std::vector<std::string>());
+  return read;
 }
 
 }  // namespace rollrig::diagnosis

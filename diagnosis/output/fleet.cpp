@@ -18,11 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string machine_of(const measurements::MeasurementSet& set) { return set.rig ? set.rig->name : set.vehicle->name; }
+
 /// The set of a member; what is wrong with it goes into the member.
 std::optional<measurements::MeasurementSet> read_member(FleetMember& member, BadRows bad_rows) {
   try {
     measurements::MeasurementSet set = measurements::read_measurement_set(member.folder, bad_rows);
-    member.machine = set.rig ? set.rig->name : set.vehicle->name;
+    member.machine = machine_of(set);
     member.tire = set.tire.name;
     return set;
   } catch (const InputError& error) {
@@ -82,7 +84,7 @@ std::string describe_recurrence(const Recurrence& one) {
 }  // namespace
 
 Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options, BadRows bad_rows) {
-  require_known_effects(options);
+  require_valid_options(options);
   Fleet fleet;
   std::vector<std::optional<measurements::MeasurementSet>> sets;
   for (const std::string& folder : folders) {
@@ -114,6 +116,31 @@ Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOpt
   });
   fleet.recurrences = find_recurrences(fleet.members);
   return fleet;
+}
+
+Json diagnose_member(const std::string& folder, const DiagnosisOptions& options, BadRows bad_rows) {
+  const measurements::MeasurementSet set = measurements::read_measurement_set(folder, bad_rows);
+  const Diagnosis found = diagnose(set, options);
+  return {{"machine", machine_of(set)},
+          {"tire", set.tire.name},
+          {"doubt", found.doubt},
+          {"diagnosis", make_diagnosis_json(found)}};
+}
+
+void add_member(const std::string& folder, const Json& result, Fleet& fleet) {
+  FleetMember member;
+  member.folder = folder;
+  member.machine = result.at("machine").get<std::string>();
+  member.tire = result.at("tire").get<std::string>();
+  member.findings = read_diagnosis_json(result.at("diagnosis"));
+  member.findings->doubt = result.at("doubt").get<std::string>();
+  fleet.members.push_back(std::move(member));
+  fleet.documents.push_back(result.at("diagnosis"));
+}
+
+void add_failed_member(const std::string& folder, const std::string& failure, Fleet& fleet) {
+  fleet.members.push_back({folder, "", "", std::nullopt, failure, std::nullopt});
+  fleet.documents.emplace_back(nullptr);
 }
 
 Table make_fleet_table(const Fleet& fleet) {
@@ -150,12 +177,14 @@ std::string format_fleet(const Fleet& fleet) {
 
 Json make_fleet_json(const Fleet& fleet) {
   Json json{{"format", "rollrig-fleet/1"}, {"sets", Json::array()}, {"recurring", Json::array()}};
-  for (const FleetMember& member : fleet.members) {
+  for (std::size_t i = 0; i < fleet.members.size(); ++i) {
+    const FleetMember& member = fleet.members[i];
+    const Json own = member.findings && fleet.documents.empty() ? make_diagnosis_json(*member.findings) : Json(nullptr);
     json["sets"].push_back({{"folder", member.folder},
                             {"machine", member.machine},
                             {"tire", member.tire},
                             {"failure", member.failure.empty() ? Json(nullptr) : Json(member.failure)},
-                            {"diagnosis", member.findings ? make_diagnosis_json(*member.findings) : Json(nullptr)}});
+                            {"diagnosis", fleet.documents.empty() ? own : fleet.documents[i]}});
   }
   const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
   for (const Recurrence& one : fleet.recurrences) {

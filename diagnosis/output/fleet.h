@@ -46,6 +46,7 @@ std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members
 struct Fleet {
   std::vector<FleetMember> members;
   std::vector<Recurrence> recurrences;
+  std::vector<Json> documents = {};  // of a campaign, the diagnosis of each member as it was stored
 };
 
 /// Diagnoses every set of a folder, several at a time. A set that cannot be read and a diagnosis that fails are noted,
@@ -53,6 +54,15 @@ struct Fleet {
 /// Errors  InputError: no set can be read; an unknown effect in `options`
 Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options,
                      BadRows bad_rows = BadRows::kRefuse);
+
+/// The diagnosis of one set as a campaign stores it: `machine`, `tire`, `doubt`, `diagnosis` (rollrig-diagnosis/1).
+/// Errors  InputError: the set cannot be read or diagnosed. RunFailure
+Json diagnose_member(const std::string& folder, const DiagnosisOptions& options, BadRows bad_rows);
+
+/// Adds the set to which such a result belongs. Throws Json::exception or InputError where it is none.
+void add_member(const std::string& folder, const Json& result, Fleet& fleet);
+/// Adds a set that could not be diagnosed.
+void add_failed_member(const std::string& folder, const std::string& failure, Fleet& fleet);
 
 /// A row a set: verdict, cause, gap before and after.
 Table make_fleet_table(const Fleet& fleet);

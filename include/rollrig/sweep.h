@@ -17,7 +17,7 @@ struct SweepAxis {
   std::vector<std::string> values;  // in the unit of the key
 };
 
-constexpr std::size_t kMostSweepPoints = 100000;  // Assumed: each takes memory for its run, result and manifest
+constexpr std::size_t kMostSweepPoints = 10000;  // Assumed: each takes memory for its result and manifest
 
 /// "key=a,b,c" or "key=from:to:step". Throws InputError.
 SweepAxis read_sweep_axis(const std::string& text);
@@ -27,10 +27,12 @@ struct SweepInput {
   std::vector<SweepAxis> axes;     // at most kMostSweepPoints values with each other
   std::vector<std::string> shown;  // results in the report's table and charts; none: those that change
   int threads = 0;                 // 0: as many as the machine has
+  std::string kept_in = {};        // folder in which points that are done are kept until the sweep is complete; empty:
+                                   // nowhere
 };
 
-/// One row for each point, the last axis fastest. Its files: sweep.csv, sweep.json, one manifest for each point that
-/// could be simulated.
+/// One row for each point, the last axis fastest. Its files: sweep.csv, sweep.json, and manifests.json with the
+/// manifest of each point that could be simulated.
 struct SweepResult : Report {
   std::vector<std::string> axes;                 // keys
   std::vector<std::vector<std::string>> points;  // values of the axes
@@ -46,9 +48,12 @@ class Sweep {
  public:
   /// Throws InputError, also for a result to be shown that the scenario does not have.
   explicit Sweep(const SweepInput& input);
-  /// Runs all points, several at a time. A point that fails is named in the result. Throws InputError for a result to
+  /// Runs all points, several at a time; of a sweep that was interrupted, those that SweepInput::kept_in has not. A
+  /// point that fails is named in the result. Throws InputError for a result to
   /// be shown that no point has, RunFailure where all points fail, Interrupted.
   SweepResult carry_out(const Progress& progress = {}) const;
+  /// Removes the folder of SweepInput::kept_in, once the result is written.
+  void remove_kept() const;
 
  private:
   struct Data;

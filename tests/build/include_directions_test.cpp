@@ -37,6 +37,7 @@ const std::vector<std::string> kOrder{"include/rollrig",
                                       "campaigns",
                                       "api",
                                       "cli",
+                                      "cli/mpi",
                                       "validation",
                                       "validation/generator",
                                       "validation/scoring",
@@ -75,7 +76,7 @@ const std::map<std::string, std::set<std::string>> kPackages{
     {"tbb/", {"sim/core/parallel.cpp"}},
     {"sha256.h", {"sim/core/file_io.cpp"}},
     {"boost/numeric/odeint", {"validation/generator/recorder.cpp"}},
-    {"mpi.h", {"validation/scoring/ranks.cpp"}},
+    {"mpi.h", {"campaigns/mpi/hand_out.cpp", "campaigns/mpi/ranks.cpp"}},
     {"hdf5.h", {"tables/hdf5_handle.h"}},
     {"zlib.h", {"tables/mdf4_blocks.cpp"}},
     {"matio.h", {"exports/mat_file.cpp", "tables/mat_table.cpp"}},
@@ -84,7 +85,7 @@ const std::map<std::string, std::set<std::string>> kPackages{
 std::string folder_of(const std::string& path) {
   if (path.rfind("rollrig/", 0) == 0) return "include/rollrig";
   for (const char* inner :
-       {"include/rollrig", "sim/core", "validation/generator", "validation/scoring", "validation/program"}) {
+       {"include/rollrig", "sim/core", "cli/mpi", "validation/generator", "validation/scoring", "validation/program"}) {
     if (path.rfind(inner + std::string("/"), 0) == 0) return inner;
   }
   return path.substr(0, path.find('/'));

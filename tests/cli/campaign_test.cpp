@@ -1,6 +1,9 @@
 // Campaigns at the command line: the same results in however many goes and processes.
 #include <catch2/catch.hpp>
 
+#include <filesystem>
+#include <map>
+
 #include "build_paths.h"
 
 #include "sim/core/json.h"
@@ -126,13 +129,80 @@ TEST_CASE("which factor a result depends on", "[fast]") {
   CHECK_THAT(flatten(unknown.err), Catch::Contains("rrc_N_per_kN"));
 }
 
+// Without an influence of temperature and of pressure on the loss, RRc at 25 degC is c loss (1 + K_t (ambient - 25
+// degC)) for uniform loss and ambient, K_t = 0.008 /K of ISO 28580. The variance of a product of independent a and b is
+// var(a) E(b)^2 + var(b) E(a)^2 + var(a) var(b), and these three are the parts of a alone, b alone and of both.
+TEST_CASE("indices of RRc are those of its closed form", "[slow]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun +
+                 " --set tire.bounded.fall_per_degC=0 --set tire.rolling_resistance.pressure_exponent=0"
+                 " --draw ambient_degC=uniform:20:30 --draw tire.bounded.loss_N=uniform:20:24"
+                 " --draw tire.geometry.wheel_mass_kg=uniform:12:16 --design sobol_indices --points 256 --seed 5",
+             at);
+  run_to_end("campaign run c", at);
+  const double mean_loss = 22.0;
+  const double variance_loss = 16.0 / 12.0;
+  const double variance_ambient = 0.08 * 0.08 / 12.0;
+  const double variance = variance_ambient * mean_loss * mean_loss + variance_loss + variance_ambient * variance_loss;
+  const double ambient = variance_ambient * mean_loss * mean_loss / variance;
+  const double both = variance_ambient * variance_loss / variance;
+  const Json found = Json::parse(run_to_end("campaign sensitivity c --result rrc_25degC_2m_N_per_kN --json -", at));
+  const std::map<std::string, std::pair<double, double>> expected{
+      {"ambient_degC", {ambient, ambient + both}},
+      {"tire.bounded.loss_N", {variance_loss / variance, variance_loss / variance + both}},
+      {"tire.geometry.wheel_mass_kg", {0.0, 0.0}}};
+  REQUIRE(found["factors"].size() == expected.size());
+  for (const Json& factor : found["factors"]) {
+    const auto& [first, total] = expected.at(factor["key"].get<std::string>());
+    INFO(factor.dump());
+    CHECK(factor["first"]["low_95"].get<double>() <= first + 1e-9);
+    CHECK(factor["first"]["high_95"].get<double>() >= first - 1e-9);
+    CHECK(factor["total"]["low_95"].get<double>() <= total + 1e-9);
+    CHECK(factor["total"]["high_95"].get<double>() >= total - 1e-9);
+    CHECK(factor["first"]["high_95"].get<double>() - factor["first"]["low_95"].get<double>() < 0.35);
+  }
+}
+
+TEST_CASE("a campaign of diagnoses has what a diagnosis of the folder has", "[slow]") {
+  const TemporaryFolder at;
+  const std::string example = std::string(ROLLRIG_SOURCE_DIR) + "/assets/examples/hidden_effect";
+  for (const char* name : {"sets/one", "sets/two", "sets/broken"}) {
+    std::filesystem::create_directories(at.file("sets"));
+    std::filesystem::copy(example, at.file(name), std::filesystem::copy_options::recursive);
+  }
+  write_file(at.file("sets/broken/tire.toml"), "format = \"rollrig-tire/2\"\n");
+  const std::string options = " --only bearing_warmup,convection_law,torque_gain";
+  const ProgramResult alone = run_program("diagnose sets --quiet --json alone.json" + options, at.path());
+  CHECK(alone.status == 2);
+  run_to_end("campaign new-diagnoses c sets" + options, at);
+  CHECK(run_program("campaign run c --shard 2/3", at.path()).status == 0);
+  CHECK_THAT(run_to_end("campaign summary c", at), Catch::Contains("2 sets not diagnosed yet"));
+  CHECK(run_program("campaign run c", at.path()).status == 3);
+  const ProgramResult summary = run_program("campaign summary c --json summary.json --html c.html", at.path());
+  CHECK(summary.status == 0);
+  CHECK_THAT(summary.out, Catch::Contains("Comes back from set to set"));
+  const Json of_folder = Json::parse(read_file(at.file("alone.json")));
+  const Json of_campaign = Json::parse(read_file(at.file("summary.json")));
+  CHECK(of_campaign["recurring"] == of_folder["recurring"]);
+  REQUIRE(of_campaign["sets"].size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(of_campaign["sets"][i]["diagnosis"] == of_folder["sets"][i]["diagnosis"]);
+    CHECK(of_campaign["sets"][i]["failure"].is_null() == of_folder["sets"][i]["failure"].is_null());
+  }
+  const std::string csv = run_to_end("campaign export c --csv -", at);
+  CHECK_THAT(csv, Catch::Contains("item,set,folder,") && Catch::Contains(",verdict,"));
+  CHECK(run_program("campaign sensitivity c --result probability", at.path()).status == 2);
+}
+
 TEST_CASE("what is wrong with a campaign is said before anything is made", "[fast]") {
   const TemporaryFolder at;
   for (const char* wrong :
        {"new c iso_28580 --tire a50", "new c iso_28580 --tire a50 --vary ambient_degC=20,900",
         "new c iso_28580 --tire a50 --draw ambient_degC=normal:25:1", "new c iso_28580 --tire a50 --draw-sd tyre",
         "new c iso_28580 --tire a50 --vary ambient_degC=20 --design morris", "run c", "status c", "merge c",
-        "run c --shard 3/2", "export c --csv c.csv", "sensitivity c --result x", "slurm c --tasks 4"}) {
+        "new-diagnoses c .", "new-diagnoses c sets --only no_effect", "summary c", "run c --mpi",
+        "run c --mpi --shard 1/2", "run c --shard 3/2", "export c --csv c.csv", "sensitivity c --result x",
+        "slurm c --tasks 4"}) {
     const ProgramResult result = run_program(std::string("campaign ") + wrong, at.path());
     INFO(wrong << "\n" << result.err);
     CHECK(result.status == 2);

@@ -187,8 +187,43 @@ TEST_CASE("a sweep tables a grid, the same from one and two threads", "[fast]") 
   CHECK(read_file(folder.file("one/sweep.csv")) == read_file(folder.file("two/sweep.csv")));
   CHECK(read_file(folder.file("one/sweep.json")) == read_file(folder.file("two/sweep.json")));
   CHECK(json::parse(read_file(folder.file("one/sweep.json")))["points"].size() == 6);
-  CHECK(fs::exists(folder.file("one/manifests/0006.json")));
+  const json manifests = json::parse(read_file(folder.file("one/manifests.json")))["manifests"];
+  REQUIRE(manifests.size() == 6);
+  CHECK(manifests[5]["settings"]["load_N"] == Approx(6000.0));
+  CHECK(!fs::exists(folder.file("one.unfinished")));
   CHECK(longest_line(one.out) <= 80);
+}
+
+TEST_CASE("a sweep that is interrupted goes on where it stopped", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string sweep =
+      "sweep iso_28580 --tire a50 --fidelity quasi_static --vary ambient_degC=20:30:0.02 --threads 1 ";
+  REQUIRE(run_program(sweep + "--out whole --quiet", folder.path()).status == 0);
+  const auto stopped =
+      run_program(sweep + "--out out/", folder.path(), "timeout --preserve-status -s INT 0.6");  // of 501 points
+  CHECK(stopped.status == 130);
+  CHECK_THAT(flatten(stopped.err), Catch::Contains("what was done is kept in out.unfinished"));
+  CHECK(!fs::exists(folder.file("out/sweep.csv")));
+  const auto other = run_program(sweep + "--set load_N=5000 --out out", folder.path());
+  CHECK(other.status == 2);
+  CHECK_THAT(flatten(other.err), Catch::Contains("holds what is done of another sweep"));
+  REQUIRE(run_program(sweep + "--out out", folder.path()).status == 0);
+  for (const char* file : {"sweep.csv", "sweep.json", "manifests.json"}) {
+    CHECK(read_file(folder.file(std::string("out/") + file)) == read_file(folder.file(std::string("whole/") + file)));
+  }
+  CHECK(!fs::exists(folder.file("out.unfinished")));
+}
+
+TEST_CASE("a sweep in several processes of one launcher is refused", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string sweep = "sweep iso_28580 --tire a50 --fidelity quasi_static --vary load_N=5000,6000";
+  const auto launched = run_program(sweep, folder.path(), "env OMPI_COMM_WORLD_RANK=1 OMPI_COMM_WORLD_SIZE=4");
+  CHECK(launched.status == 2);
+  CHECK_THAT(flatten(launched.err), Catch::Contains("4 processes were started") && Catch::Contains("rollrig campaign"));
+  const auto task =
+      run_program(sweep, folder.path(), "env SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=3");
+  CHECK(task.status == 0);
+  CHECK_THAT(flatten(task.err), Catch::Contains("warning: this is task 2 of 3 of a job array"));
 }
 
 namespace {
@@ -222,8 +257,10 @@ TEST_CASE("a point of a sweep that fails is named, and the others are written", 
   CHECK(sweep_json["points"].size() == 3);
   CHECK(sweep_json["points"][1]["failure"] == failures[1]);
   CHECK(!sweep_json["points"][0].contains("failure"));
-  CHECK(std::filesystem::exists(folder.file("out/manifests/0003.json")));
-  CHECK(!std::filesystem::exists(folder.file("out/manifests/0002.json")));
+  const json manifests = json::parse(read_file(folder.file("out/manifests.json")))["manifests"];
+  REQUIRE(manifests.size() == 3);
+  CHECK(manifests[1].is_null());
+  CHECK(manifests[2]["scenario"] == "warm_up");
 }
 
 TEST_CASE("a sweep whose points all fail writes nothing", "[fast]") {
@@ -294,7 +331,7 @@ TEST_CASE("every command that writes a page says where", "[fast]") {
 TEST_CASE("an interrupted run stops cleanly and leaves nothing behind", "[fast]") {
   const TemporaryFolder folder;
   // long enough to be met: a sweep of some hundred runs
-  const auto run = run_program("sweep speed_sweep --tire a50 --vary load_N=4000:7000:5 --threads 1 --out results",
+  const auto run = run_program("sweep speed_sweep --tire a50 --vary load_N=4000:7000:5 --threads 1 --json sweep.json",
                                folder.path(), "timeout --foreground -s INT --preserve-status 0.7");
   CHECK(run.status == 130);
   CHECK_THAT(run.err, Contains("nothing was written"));

@@ -136,6 +136,20 @@ TEST_CASE("a run that is interrupted leaves whole answers, and goes on from them
   CHECK_THAT(rest.out, Contains(fmt::format("{} now, {} before", 6 - answered, answered)));
 }
 
+TEST_CASE("processes without MPI answer the cases of their part", "[fast]") {
+  const ValidationSetFolder made;
+  const auto first = run_validation("run set --shard 1/2", made.folder.path());
+  INFO(first.out << first.err);
+  CHECK(first.status == 0);
+  CHECK(count_files(made.root + "/answers") == 2);
+  CHECK_THAT(flatten(first.out), Contains("part 1 of 2"));
+  const auto second = run_validation("run set", made.folder.path(),
+                                     "env SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=2");
+  CHECK_THAT(flatten(second.out), Contains("1 now, 0 before"));
+  CHECK(count_files(made.root + "/answers") == 3);
+  CHECK(run_validation("run set --shard 3/2", made.folder.path()).status == 2);
+}
+
 #ifdef ROLLRIG_MPIEXEC
 TEST_CASE("under mpirun the processes share the sets, and one of them prints", "[fast]") {
   const ValidationSetFolder made;

@@ -1,16 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <set>
 
+#include "campaigns/mpi/ranks.h"
+#include "campaigns/part.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 #include "validation/program/commands.h"
 #include "validation/scoring/baselines/baselines.h"
-#include "validation/scoring/ranks.h"
 #include "validation/scoring/run_cases.h"
 
 namespace rollrig::validation {
@@ -19,6 +21,7 @@ namespace {
 struct RunOptions {
   std::string set;
   std::string out;
+  std::string shard;
   int threads = 0;
   cli::ComparisonOptions comparison;
   bool quiet = false;
@@ -28,19 +31,33 @@ struct RunOptions {
   std::vector<std::string> methods;  // of baselines
 };
 
+/// Which cases this process answers: those of its rank under mpirun, else those of --shard, or of what a batch system
+/// says.
+campaigns::Part choose_part(const campaigns::Ranks& ranks, const std::string& shard) {
+  if (ranks.count() == 1) {
+    if (!shard.empty()) return campaigns::read_part(shard);
+    return campaigns::find_part([](const char* name) -> const char* { return std::getenv(name); })
+        .value_or(campaigns::Part{});
+  }
+  if (!shard.empty()) {
+    throw cli::usage_error("mpirun has divided the cases already", "--shard", shard, "mpirun or --shard");
+  }
+  return {ranks.rank() + 1, ranks.count()};
+}
+
 /// Answers what is to be answered by all processes together, and says how it went.
-int run_tasks(const Ranks& ranks, const RunOptions& options, const std::string& out, std::vector<Task> tasks,
+int run_tasks(const campaigns::Ranks& ranks, const RunOptions& options, const std::string& out, std::vector<Task> tasks,
               const AnswerBy& answer_by = answer_by_diagnosis) {
   const std::size_t all = tasks.size();
   RunOrder order{options.set, out, std::move(tasks)};
   order.answer_by = answer_by;
   order.threads = options.threads > 0 ? options.threads : ranks.threads();
-  order.rank = ranks.rank();
-  order.ranks = ranks.count();
+  const campaigns::Part part = choose_part(ranks, options.shard);
+  order.rank = part.number - 1;
+  order.ranks = part.count;
   cli::ProgressLine progress("validation", options.quiet || !ranks.is_first());
   order.progress = [&progress, &order](std::size_t done, std::size_t of) {
-    progress.update(std::nan(""),
-                    fmt::format("{} of {} cases{}", done, of, order.ranks > 1 ? " of the first process" : ""));
+    progress.update(std::nan(""), fmt::format("{} of {} cases{}", done, of, order.ranks > 1 ? " of this process" : ""));
   };
   const RunTally own = run_cases(order);
   progress.clear();
@@ -53,7 +70,8 @@ int run_tasks(const Ranks& ranks, const RunOptions& options, const std::string& 
     std::string text =
         fmt::format("{} of {} cases answered in {}/: {} now, {} before", sums[0] + sums[1], all, out, sums[1], sums[0]);
     if (sums[2] > 0) text += fmt::format("; {} not diagnosed", sums[2]);
-    if (order.ranks > 1) text += fmt::format("; {} processes", order.ranks);
+    if (ranks.count() > 1) text += fmt::format("; {} processes", ranks.count());
+    if (ranks.count() == 1 && part.count > 1) text += fmt::format("; part {} of {}", part.number, part.count);
     if (is_stopped) text = "stopped: " + text;
     (is_stopped ? std::cerr : std::cout) << wrap(text, 2).substr(2);
     if (is_stopped) std::cerr << "the same command goes on from here\n";
@@ -64,14 +82,14 @@ int run_tasks(const Ranks& ranks, const RunOptions& options, const std::string& 
 int run_command(const RunOptions& options) {
   options.comparison.check();
   std::vector<Task> tasks = plan_tasks(options.set, options.comparison.only, options.comparison.without);
-  const Ranks ranks;
+  const campaigns::Ranks ranks;
   return run_tasks(ranks, options, place_in(options.set, "answers", options.out), std::move(tasks));
 }
 
 int baselines_command(const RunOptions& options) {
   options.comparison.check();
   const std::vector<Task> tasks = plan_tasks(options.set, options.comparison.only, options.comparison.without);
-  const Ranks ranks;
+  const campaigns::Ranks ranks;
   const auto is_asked = [&options](const std::string& id) {
     return options.methods.empty() ||
            std::find(options.methods.begin(), options.methods.end(), id) != options.methods.end();
@@ -97,7 +115,7 @@ int known_cause_command(const RunOptions& options) {
   const std::vector<Truth> truths = read_truths(options.set, options.hash);
   Twins twins = is_alone ? Twins{} : find_twins(truths, place_in(options.set, "answers"));
   if (options.confusable) add_confusable(truths, twins);
-  const Ranks ranks;
+  const campaigns::Ranks ranks;
   return run_tasks(
       ranks, options, place_in(options.set, is_alone ? kAloneFolder : kLeftOutFolder, options.out),
       plan_known_cause(truths, is_alone ? KnownCause::kAlone : KnownCause::kLeftOut, options.comparison.only, twins));
@@ -106,6 +124,8 @@ int known_cause_command(const RunOptions& options) {
 void add_common(CLI::App& command, RunOptions& options) {
   add_set_to(command, options.set);
   cli::add_threads(command, options.threads, "Cases at the same time [as many as the machine has cores]");
+  command.add_option("--shard", options.shard,
+                     "I/N: every N-th case, from the I-th [what Slurm or Grid Engine says, else all]");
   command.add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 

@@ -1,4 +1,4 @@
-#include "rollrig/run_campaign.h"
+#include "rollrig/item_campaign.h"
 
 #include <fmt/format.h>
 
@@ -6,19 +6,24 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 
 #include "api/campaign_definition.h"
+#include "api/campaign_items.h"
 #include "api/item_table.h"
-#include "api/run_items.h"
+#include "api/open_campaign.h"
 #include "api/sensitivity.h"
 #include "campaigns/items.h"
 #include "campaigns/store.h"
+#include "diagnosis/output/fleet.h"
 #include "exports/tree.h"
+#include "report/diagnosis_page.h"
 #include "report/sensitivity_page.h"
 #include "sim/core/columns.h"
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/parse_json.h"
 #include "sim/core/shell_word.h"
 #include "sim/core/text.h"
 
@@ -27,114 +32,88 @@ namespace fs = std::filesystem;
 namespace rollrig {
 namespace {
 
-constexpr const char* kFileName = "campaign.json";
-
 campaigns::Part to_part(const CampaignPart& part) { return {part.number, part.count}; }
 CampaignPart from_part(const campaigns::Part& part) { return {part.number, part.count}; }
 
-RunCampaignState make_state(const campaigns::Tally& tally, const std::string& of,
-                            const std::vector<std::string>& running = {}) {
-  RunCampaignState state;
-  state.items = tally.items;
-  state.done = tally.done;
-  state.failed = tally.failed;
-  state.json = to_text(Json{{"format", "rollrig-campaign-state/1"},
-                            {"items", tally.items},
-                            {"done", tally.done},
-                            {"failed", tally.failed},
-                            {"processes", running.size()}}) +
-               "\n";
-  state.text = wrap(
-      fmt::format("{}: {} of {} done{}{}", of, tally.done, format_count(tally.items, "item"),
-                  tally.failed > 0 ? fmt::format(", {} of them failed", tally.failed) : "",
-                  running.empty()
-                      ? ""
-                      : fmt::format(", {} at work",
-                                    running.size() == 1 ? "1 process" : fmt::format("{} processes", running.size()))),
-      0);
-  return state;
-}
-
 }  // namespace
 
-struct RunCampaign::Data {
-  CampaignDefinition definition;
-  RunItems items;
-  campaigns::CampaignFolder folder;
-
-  std::string path_of_definition() const { return (fs::path(folder.path) / kFileName).string(); }
-  std::vector<std::string> list_filled_files() const {
-    const std::vector<std::string> files = folder.list_files();
-    if (!files.empty()) return files;
-    throw InputError({"the campaign has no results yet", folder.path, 0, "", "", "rollrig campaign run first", ""});
+struct ItemCampaign::Data : OpenCampaign {
+  ItemFiles files() const { return {list_filled_files(), folder.definition}; }
+  ItemTable read_table() const {
+    const std::unique_ptr<CampaignItems> own = make_items(definition);  // it learns the names of the results
+    return read_item_table(files(), *own);
   }
-
-  ItemTable read_table() const { return read_item_table(list_filled_files(), folder.definition, items); }
 };
 
 CampaignPart read_campaign_part(const std::string& text) { return from_part(campaigns::read_part(text)); }
 
-std::optional<CampaignPart> find_campaign_part() {
-  const auto part = campaigns::find_part([](const char* name) -> const char* { return std::getenv(name); });
+namespace {
+
+std::optional<CampaignPart> from_environment(std::optional<campaigns::Part> (*find)(const campaigns::Environment&)) {
+  const auto part = find([](const char* name) -> const char* { return std::getenv(name); });
   if (!part.has_value()) return std::nullopt;
   return from_part(*part);
 }
 
-void define_run_campaign(const RunCampaignInput& input, const std::string& folder) {
+}  // namespace
+
+std::optional<CampaignPart> find_campaign_part() { return from_environment(campaigns::find_part); }
+std::optional<CampaignPart> find_launched_part() { return from_environment(campaigns::find_process_part); }
+
+namespace {
+
+/// What `make` says, in a new folder.
+void write_definition(const std::string& folder, const std::function<CampaignDefinition()>& make) {
   std::error_code none;
   if (fs::exists(folder, none) && !fs::is_empty(folder, none)) {
     throw InputError({fmt::format("'{}' is there already and holds files", folder), "command line", 0, "folder", folder,
                       "a new or an empty folder", ""});
   }
-  CampaignDefinition definition = make_definition(input);
-  definition.files = RunItems(definition).check();
-  write_folder(folder, {{kFileName, definition.to_text()}});
+  CampaignDefinition definition = make();
+  definition.files = make_items(definition)->check();
+  write_folder(folder, {{kCampaignFileName, definition.to_text()}});
 }
 
-RunCampaign::RunCampaign(const std::string& folder) {
-  const std::string path = (fs::path(folder) / kFileName).string();
-  if (!is_there(path)) {
-    throw InputError({fmt::format("'{}' is no folder of a campaign", folder), "command line", 0, "folder", folder,
-                      fmt::format("a folder with a {}, which rollrig campaign new makes", kFileName), ""});
-  }
-  const std::string content = read_text_file(path);
-  const CampaignDefinition definition = CampaignDefinition::read(content, path);
-  try {
-    data_ = std::make_shared<Data>(Data{definition, RunItems(definition), {folder, content, definition.design.seed}});
-  } catch (const InputError& error) {  // of a design that somebody has changed by hand
-    InputProblem problem = error.problem();
-    problem.file = path;
-    throw InputError(problem);
-  }
+}  // namespace
+
+void define_run_campaign(const RunCampaignInput& input, const std::string& folder) {
+  write_definition(folder, [&input] { return make_definition(input); });
 }
 
-RunCampaignState RunCampaign::carry_out(const CampaignPart& part, int threads, const Progress& progress) const {
-  require_same_version(data_->definition, data_->path_of_definition());
-  RunItems items(data_->definition);
-  items.watch_files(data_->definition.files);
-  items.check();
+void define_diagnosis_campaign(const DiagnosisCampaignInput& input, const std::string& folder) {
+  DiagnosisOptions options;
+  options.only = input.only;
+  options.without = input.without;
+  diagnosis::require_valid_options(options);
+  write_definition(folder, [&input] { return make_definition(input); });
+}
+
+ItemCampaign::ItemCampaign(const std::string& folder) : data_(std::make_shared<Data>(Data{open_campaign(folder)})) {}
+
+CampaignState ItemCampaign::carry_out(const CampaignPart& part, int threads, const Progress& progress) const {
+  const std::unique_ptr<CampaignItems> items = data_->make_watched_items();
   const auto advance = [&progress](double done) {
     if (progress) progress(done, "");
   };
-  const campaigns::Tally tally = campaigns::carry_out_items(items, data_->folder, to_part(part), threads, advance);
+  const campaigns::Tally tally = campaigns::carry_out_items(*items, data_->folder, to_part(part), threads, advance);
   const std::string of = part.count == 1
                              ? data_->folder.path
                              : fmt::format("{}, part {} of {}", data_->folder.path, part.number, part.count);
   return make_state(tally, of);
 }
 
-RunCampaignState RunCampaign::read_state() const {
-  const campaigns::FolderState state = campaigns::read_state(data_->folder, data_->items.count());
+CampaignState ItemCampaign::read_state() const {
+  const campaigns::FolderState state = campaigns::read_state(data_->folder, data_->items->count());
   return make_state(state.tally, data_->folder.path, state.running);
 }
 
-RunCampaignState RunCampaign::merge() const {
+CampaignState ItemCampaign::merge() const {
   const std::vector<std::string> files = data_->list_filled_files();
   const std::string merged = (fs::path(data_->folder.path) / "results.sqlite").string();
   if (files == std::vector<std::string>{merged}) return read_state();
   // What an earlier merge that was cut short has left there are records of this campaign, too.
   const std::string partial = merged + ".partial";
-  std::vector<bool> is_merged(data_->items.count());
+  std::vector<bool> is_merged(data_->items->count());
   campaigns::Store store(partial, data_->folder.definition);  // which only one merge at a time can open
   campaigns::read_records(files, data_->folder.definition, [&](const campaigns::Record& record) {
     store.write(record);
@@ -149,24 +128,31 @@ RunCampaignState RunCampaign::merge() const {
   return read_state();
 }
 
-std::string RunCampaign::make_csv() const {
-  const ItemTable table = data_->read_table();
+void ItemCampaign::write_csv(const std::function<void(const std::string&)>& take) const {
+  const ItemFiles files = data_->files();
+  const std::unique_ptr<CampaignItems> items = make_items(data_->definition);
+  const ItemColumns table = find_item_columns(files, *items);
   std::vector<std::string> columns{"item"};
-  for (const campaigns::Factor& factor : data_->definition.design.factors) columns.push_back(factor.key);
-  columns.insert(columns.end(), table.results.begin(), table.results.end());
-  if (table.has_failures()) columns.emplace_back("failure");
-  CsvWriter csv(columns);
-  for (std::size_t row = 0; row < table.items.size(); ++row) {
-    csv.add(std::to_string(table.items[row] + 1));
-    for (const std::string& value : table.values[row]) csv.add(value);
-    for (const std::vector<double>& column : table.numbers) csv.add(CsvWriter::Rounded{column[row], 12});
-    if (table.has_failures()) csv.add(table.failures[row]);
-    csv.end_row();
+  for (const auto& names : {items->list_keys(), table.text_results, table.results}) {
+    columns.insert(columns.end(), names.begin(), names.end());
   }
-  return csv.take();
+  if (table.has_failures) columns.emplace_back("failure");
+  CsvWriter csv(columns);
+  std::size_t rows = 0;
+  visit_item_rows(files, *items, table, [&](const ItemRow& row) {
+    csv.add(std::to_string(row.item + 1));
+    for (const std::string& value : row.values) csv.add(value);
+    for (const std::string& text : row.texts) csv.add(text);
+    for (const double number : row.numbers) csv.add(CsvWriter::Rounded{number, 12});
+    if (table.has_failures) csv.add(row.failure);
+    csv.end_row();
+    constexpr std::size_t kAtOnce = 1000;
+    if (++rows % kAtOnce == 0) take(csv.take());
+  });
+  take(csv.take());
 }
 
-Export RunCampaign::make_export() const {
+Export ItemCampaign::make_export() const {
   const auto tree = std::make_shared<exports::Group>();
   const ItemTable table = data_->read_table();
   exports::Group rows;
@@ -174,8 +160,8 @@ Export RunCampaign::make_export() const {
   exports::Column numbers;
   for (const std::size_t item : table.items) numbers.push_back(static_cast<double>(item + 1));
   rows.add("item", {numbers});
-  const std::vector<campaigns::Factor>& factors = data_->definition.design.factors;
-  for (std::size_t f = 0; f < factors.size(); ++f) {
+  const std::vector<std::string> keys = data_->items->list_keys();
+  for (std::size_t f = 0; f < keys.size(); ++f) {
     exports::Texts texts;
     exports::Column values;
     for (const std::vector<std::string>& of_item : table.values) {
@@ -183,41 +169,47 @@ Export RunCampaign::make_export() const {
       if (const auto number = parse_number(texts.back())) values.push_back(*number);
     }
     if (values.size() == texts.size()) {
-      rows.add(factors[f].key, {values});
+      rows.add(keys[f], {values});
     } else {
-      rows.add(factors[f].key, {texts});
+      rows.add(keys[f], {texts});
     }
   }
-  for (std::size_t r = 0; r < table.results.size(); ++r) rows.add(table.results[r], {table.numbers[r]});
-  if (table.has_failures()) rows.add("failure", {table.failures});
+  for (std::size_t r = 0; r < table.texts.size(); ++r) rows.add(table.columns.text_results[r], {table.texts[r]});
+  for (std::size_t r = 0; r < table.numbers.size(); ++r) rows.add(table.columns.results[r], {table.numbers[r]});
+  if (table.columns.has_failures) rows.add("failure", {table.failures});
   tree->add("format", {std::string("rollrig-campaign-export/1")});
   tree->add("items", {rows});
   tree->add("definition", {data_->folder.definition});
   return {[tree] { return exports::make_mat(*tree); }, [tree] { return exports::make_hdf5(*tree); }};
 }
 
-Report RunCampaign::calc_sensitivity(const std::string& result) const {
+Report ItemCampaign::calc_sensitivity(const std::string& result) const {
   const campaigns::DesignInput& design = data_->definition.design;
   const bool is_sobol = design.name == campaigns::kSobolIndices;
+  if (data_->definition.diagnosis.has_value()) {
+    throw InputError({"a campaign of diagnoses does not tell how sensitive a result is", data_->path_of_definition(), 0,
+                      "diagnosis", "", "a campaign of runs", ""});
+  }
   if (!is_sobol && design.name != campaigns::kMorris) {
     throw InputError({fmt::format("a campaign of design {} does not tell how sensitive a result is", design.name),
                       data_->path_of_definition(), 0, "design", design.name,
                       fmt::format("{} or {}", campaigns::kSobolIndices, campaigns::kMorris), ""});
   }
   const ItemTable table = data_->read_table();
-  if (table.results.empty()) {
+  const std::vector<std::string>& results = table.columns.results;
+  if (results.empty()) {
     throw InputError({"no item of the campaign has a result: all that were carried out failed", data_->folder.path, 0,
                       "", "", "rollrig campaign export, whose column failure says why", ""});
   }
-  const auto known = std::find(table.results.begin(), table.results.end(), result);
-  if (known == table.results.end()) {
-    InputProblem problem = unknown_name("result", result, table.results);
+  const auto known = std::find(results.begin(), results.end(), result);
+  if (known == results.end()) {
+    InputProblem problem = unknown_name("result", result, results);
     problem.file = "command line";
     problem.key = "--result";
     throw InputError(problem);
   }
-  const std::vector<double>& column = table.numbers[static_cast<std::size_t>(known - table.results.begin())];
-  campaigns::ItemResults values(data_->items.count(), std::nan(""));
+  const std::vector<double>& column = table.numbers[static_cast<std::size_t>(known - results.begin())];
+  campaigns::ItemResults values(data_->items->count(), std::nan(""));
   for (std::size_t row = 0; row < table.items.size(); ++row) values[table.items[row]] = column[row];
   const std::size_t factors = design.factors.size();
   const Sensitivity found =
@@ -242,7 +234,32 @@ Report RunCampaign::calc_sensitivity(const std::string& result) const {
   return report;
 }
 
-std::string RunCampaign::make_slurm_job(std::size_t tasks, const std::string& program) const {
+Report ItemCampaign::summarize_diagnoses() const {
+  if (!data_->definition.diagnosis.has_value()) {
+    throw InputError({"a campaign of runs has no diagnoses", data_->path_of_definition(), 0, "run", "",
+                      "rollrig campaign export; or a campaign of sets", ""});
+  }
+  const auto fleet = std::make_shared<diagnosis::Fleet>();
+  campaigns::read_records(data_->list_filled_files(), data_->folder.definition, [&](const campaigns::Record& record) {
+    require_item(record, data_->items->count(), data_->folder.path);
+    const std::string& set = data_->definition.diagnosis->sets[record.item];
+    if (record.failure.empty()) {
+      diagnosis::add_member(set, parse_json(record.result, fmt::format("result of item {}", record.item + 1)), *fleet);
+    } else {
+      diagnosis::add_failed_member(set, record.failure, *fleet);
+    }
+  });
+  fleet->recurrences = diagnosis::find_recurrences(fleet->members);
+  Report report;
+  report.json = to_text(diagnosis::make_fleet_json(*fleet));
+  report.text = diagnosis::format_fleet(*fleet);
+  const std::size_t open = data_->items->count() - fleet->members.size();
+  if (open > 0) report.text += wrap(fmt::format("{} not diagnosed yet", format_count(open, "set")), 0);
+  report.make_page = [fleet] { return report::make_html(report::make_fleet_page(*fleet)); };
+  return report;
+}
+
+std::string ItemCampaign::make_slurm_job(std::size_t tasks, const std::string& program) const {
   const std::string folder = fs::absolute(data_->folder.path).lexically_normal().string();
   return fmt::format(
       "#!/bin/sh\n"
@@ -254,8 +271,8 @@ std::string RunCampaign::make_slurm_job(std::size_t tasks, const std::string& pr
       "#SBATCH --cpus-per-task=1\n"
       "#SBATCH --requeue\n"
       "exec {} campaign run {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads \"$SLURM_CPUS_PER_TASK\" --quiet\n",
-      data_->items.count(), data_->definition.run.scenario_or_file, tasks, tasks, quote_for_shell(program),
-      quote_for_shell(folder), tasks);
+      data_->items->count(), data_->folder.path, tasks, tasks, quote_for_shell(program), quote_for_shell(folder),
+      tasks);
 }
 
 }  // namespace rollrig

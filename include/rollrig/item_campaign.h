@@ -1,14 +1,17 @@
 #pragma once
-/// A campaign of runs: one scenario with many sets of values, carried out by one process or by many, at once or in
-/// several sessions, with the same results to the bit. docs/campaigns.md.
+/// A campaign of items: runs of one scenario with many sets of values, or diagnoses of many measurement sets. It is
+/// carried out by one process or by many, at once or in several sessions, with the same results to the bit.
+/// docs/campaigns.md.
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bad_rows.h"
 #include "export.h"
 #include "progress.h"
 #include "result.h"
@@ -18,7 +21,7 @@
 #pragma GCC visibility push(default)
 namespace rollrig {
 
-/// What a campaign is made of.
+/// What a campaign of runs is made of.
 struct RunCampaignInput {
   RunInput run;                       // its seed is the campaign's
   std::vector<SweepAxis> axes;        // of a grid: every value with every other
@@ -29,6 +32,15 @@ struct RunCampaignInput {
 };
 
 std::vector<std::string> campaign_designs();
+
+/// What a campaign of diagnoses is made of.
+struct DiagnosisCampaignInput {
+  std::vector<std::string> sets;     // their folders
+  std::vector<std::string> only;     // as DiagnosisOptions has them
+  std::vector<std::string> without;  // likewise
+  double smallest_effect_percent = 0.5;
+  BadRows bad_rows = BadRows::kRefuse;
+};
 
 /// Which items a process carries out: part `number` of `count`, from 1.
 struct CampaignPart {
@@ -41,9 +53,11 @@ CampaignPart read_campaign_part(const std::string& text);
 /// What Slurm, Grid Engine, mpirun or srun says in the environment; none where the process was started by itself.
 /// Throws InputError.
 std::optional<CampaignPart> find_campaign_part();
+/// What mpirun or srun says alone: not a job array, whose tasks may differ in what they are asked to do.
+std::optional<CampaignPart> find_launched_part();
 
 /// How far a campaign, or a part of it, is.
-struct RunCampaignState : Report {
+struct CampaignState : Report {
   std::size_t items = 0;
   std::size_t done = 0;  // with those that failed
   std::size_t failed = 0;
@@ -52,29 +66,35 @@ struct RunCampaignState : Report {
 /// Makes the folder of a campaign with its campaign.json. Throws InputError: whatever is wrong with the runs or the
 /// design, and where the folder holds files.
 void define_run_campaign(const RunCampaignInput& input, const std::string& folder);
+/// The same for diagnoses. A set that cannot be read becomes an item that fails. Throws InputError: no set can be read,
+/// an unknown effect, and where the folder holds files.
+void define_diagnosis_campaign(const DiagnosisCampaignInput& input, const std::string& folder);
 
 /// A campaign in its folder.
-class RunCampaign {
+class ItemCampaign {
  public:
   /// Throws InputError: the folder holds no campaign.
-  explicit RunCampaign(const std::string& folder);
+  explicit ItemCampaign(const std::string& folder);
 
   /// Carries out what is not done of a part. Each result is kept as soon as it is there, so that an interruption
   /// loses only what is being computed. Throws InputError where another process works on the part, and where a file or
   /// the version of rollrig has changed since the campaign was begun; Interrupted.
-  RunCampaignState carry_out(const CampaignPart& part, int threads = 0, const Progress& progress = {}) const;
+  CampaignState carry_out(const CampaignPart& part, int threads = 0, const Progress& progress = {}) const;
   /// What all processes have done up to now.
-  RunCampaignState read_state() const;
+  CampaignState read_state() const;
   /// Puts all results into one file, and takes the others away. Throws InputError where a process still works; no
   /// result is lost then.
-  RunCampaignState merge() const;
+  CampaignState merge() const;
 
-  /// All items that are done, in their order: item, values, results, failure. Throws InputError where none is.
-  std::string make_csv() const;
+  /// All items that are done, in their order: item, values, results, failure. The values of a diagnosis are the set and
+  /// its folder. Throws InputError where none is done.
+  void write_csv(const std::function<void(const std::string&)>& take) const;  // `take` gets some rows at a time
   Export make_export() const;
   /// How much of a result's spread comes from which factor, for the designs sobol_indices and morris.
   /// Throws InputError: another design, an unknown result, too few items.
   Report calc_sensitivity(const std::string& result) const;
+  /// Of diagnoses that are done: the report of diagnose_fleet(). Throws InputError where none is, or for runs.
+  Report summarize_diagnoses() const;
   /// A job for Slurm's sbatch: an array of `tasks` tasks, each of which carries out a part. `program` is how the tasks
   /// call rollrig.
   std::string make_slurm_job(std::size_t tasks, const std::string& program) const;

@@ -1,4 +1,4 @@
-#include "validation/scoring/ranks.h"
+#include "campaigns/mpi/ranks.h"
 
 #include <algorithm>
 #include <exception>
@@ -10,7 +10,7 @@
 #include <cstdlib>
 #endif
 
-namespace rollrig::validation {
+namespace rollrig::campaigns {
 
 #ifdef ROLLRIG_MPI
 namespace {
@@ -64,4 +64,4 @@ Ranks::~Ranks() = default;
 std::vector<std::size_t> Ranks::sum(std::vector<std::size_t> numbers) const { return numbers; }
 #endif
 
-}  // namespace rollrig::validation
+}  // namespace rollrig::campaigns

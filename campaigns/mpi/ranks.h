@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace rollrig::validation {
+namespace rollrig::campaigns {
 
 /// MPI for as long as the object lives. Not copied; one at a time.
 class Ranks {
@@ -31,4 +31,4 @@ class Ranks {
   int exceptions_ = 0;
 };
 
-}  // namespace rollrig::validation
+}  // namespace rollrig::campaigns

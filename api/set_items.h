@@ -1,0 +1,31 @@
+#pragma once
+/// The diagnoses of a campaign as items, one for each measurement set.
+
+#include <string>
+#include <vector>
+
+#include "api/campaign_items.h"
+
+namespace rollrig {
+
+class SetItems : public CampaignItems {
+ public:
+  explicit SetItems(DiagnosisCampaignInput input) : input_(std::move(input)) {}
+
+  std::size_t count() const override { return input_.sets.size(); }
+  Json describe(std::size_t item) const override;
+  /// As diagnosis::diagnose_member() has it.
+  Json carry_out(std::size_t item, std::uint64_t seed) const override;
+
+  std::vector<std::string> list_keys() const override { return {"set", "folder"}; }
+  std::vector<std::string> calc_values(std::size_t item) const override;
+  /// Reads all sets. Throws InputError where none can be read.
+  std::vector<CampaignFile> check() const override;
+  /// Machine, tire, verdict, cause, its probability, and the gap in noise floors without and with it.
+  Json flatten(const Json& result) const override;
+
+ private:
+  DiagnosisCampaignInput input_;
+};
+
+}  // namespace rollrig

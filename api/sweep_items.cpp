@@ -1,0 +1,50 @@
+#include "api/sweep_items.h"
+
+#include "api/campaign_items.h"
+#include "api/data.h"
+#include "rollrig/version.h"
+#include "sim/core/file_io.h"
+
+namespace rollrig {
+
+Json SweepItems::describe(std::size_t item) const {
+  Json varied = Json::object();
+  for (std::size_t a = 0; a < input_.axes.size(); ++a) varied[input_.axes[a].key] = points_[item][a];
+  return varied;
+}
+
+Json SweepItems::carry_out(std::size_t item, std::uint64_t) const {
+  const scenarios::RunSpec spec = read(item);
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+  return {{"result", outcome.result}, {"manifest", scenarios::make_manifest(spec, outcome)}};
+}
+
+scenarios::RunSpec SweepItems::read(std::size_t item) const {
+  RunInput run = input_.run;
+  for (std::size_t a = 0; a < input_.axes.size(); ++a) {
+    run.settings.push_back(input_.axes[a].key + "=" + points_[item][a]);
+  }
+  return read_run(run);
+}
+
+void SweepItems::check() {
+  const ReadRecorder recorder;
+  for (std::size_t item = 0; item < count(); ++item) scenarios::prepare_run(read(item));
+  files_ = hash_files(recorder.list_files());
+  watch_.emplace(files_);
+}
+
+std::string SweepItems::define(std::uint64_t seed) const {
+  CampaignDefinition definition;
+  definition.version = library_version();
+  definition.run = input_.run;
+  definition.files = files_;
+  definition.design.name = campaigns::kGrid;
+  definition.design.seed = seed;
+  for (const SweepAxis& axis : input_.axes) {
+    definition.design.factors.push_back({axis.key, campaigns::Factor::Kind::kValues, axis.values});
+  }
+  return definition.to_text();
+}
+
+}  // namespace rollrig

@@ -1,0 +1,46 @@
+#pragma once
+/// The points of a sweep as items.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/campaign_definition.h"
+#include "campaigns/items.h"
+#include "rollrig/sweep.h"
+#include "scenarios/run/scenario.h"
+
+namespace rollrig {
+
+using SweepPoint = std::vector<std::string>;  // a value of each axis
+
+/// Each point has the seed of the sweep, so that they differ by the axes alone.
+class SweepItems : public campaigns::ItemList {
+ public:
+  SweepItems(SweepInput input, std::vector<SweepPoint> points) : input_(std::move(input)), points_(std::move(points)) {}
+
+  std::size_t count() const override { return points_.size(); }
+  Json describe(std::size_t item) const override;
+  /// `result` and `manifest` of the run.
+  Json carry_out(std::size_t item, std::uint64_t seed) const override;
+  std::uint64_t calc_seed(std::size_t, std::uint64_t sweep_seed) const override { return sweep_seed; }
+  void require_unchanged() const override {
+    if (watch_.has_value()) watch_->require_unchanged();
+  }
+
+  const SweepInput& input() const { return input_; }
+  const std::vector<SweepPoint>& points() const { return points_; }
+  scenarios::RunSpec read(std::size_t item) const;
+  /// Reads all points, and watches their files from then on. Throws InputError where one is wrong.
+  void check();
+  /// All that the results depend on, as a text: two sweeps have the same if their results are the same.
+  std::string define(std::uint64_t seed) const;
+
+ private:
+  SweepInput input_;
+  std::vector<SweepPoint> points_;
+  std::vector<CampaignFile> files_;
+  std::optional<FileWatch> watch_;
+};
+
+}  // namespace rollrig

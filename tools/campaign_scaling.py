@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""How long a campaign takes on more cores than this machine has: a simulation of its processes.
+
+Measured on this machine are the time of one item, of the start of a process, and of the merge of a record and of a
+file. The simulation then carries out the campaign with fixed parts (--shard) and with items that are handed out (--mpi),
+and says which part of the time is lost to what.
+
+  tools/campaign_scaling.py PROGRAM [--items 100000] [--seed 1]
+"""
+import argparse
+import heapq
+import math
+import random
+import subprocess
+import tempfile
+import time
+
+# Assumed: what the process that hands out items needs for a question, over Ethernet (within a machine it is less).
+QUESTION_S = 5e-5
+# Half of the pause of that process where nobody asks (campaigns/mpi/hand_out.cpp).
+PAUSE_S = 5e-4
+# Assumed: standard deviation of the time of an item over its mean, as for draws of the parameters of one test.
+SPREAD = 0.2
+WORK = {
+    "ISO 28580, quasi-static": ["iso_28580", "--tire", "a50", "--fidelity", "quasi_static", "--draw-sd", "tire"],
+    "multi-cycle test, multibody": ["sae_j1634", "--tire", "a50", "--draw-sd", "tire"],
+}
+MEASURED_ITEMS = {"ISO 28580, quasi-static": 2000, "multi-cycle test, multibody": 6}
+
+
+def time_command(*words):
+    start = time.perf_counter()
+    subprocess.run(words, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return time.perf_counter() - start
+
+
+def measure(program, run, items, folder):
+    """Seconds of an item, of a start, and of the merge of a record and of a file."""
+    of = f"{folder}/measured"
+    subprocess.run([program, "campaign", "new", of, *run, "--points", str(items), "--quiet"], check=True)
+    whole = time_command(program, "campaign", "run", of, "--threads", "1")
+    start = time_command(program, "campaign", "run", of, "--threads", "1")
+    merge = time_command(program, "campaign", "merge", of)
+    status = time_command(program, "campaign", "status", of)
+    return {"item": (whole - start) / items, "start": start, "record": max(merge - status, 0.0) / items}
+
+
+def draw_times(count, mean, seed):
+    """Lognormal, the same for any number of cores."""
+    generator = random.Random(seed)
+    sigma = math.sqrt(math.log(1.0 + SPREAD**2))
+    return [mean * generator.lognormvariate(-0.5 * sigma**2, sigma) for _ in range(count)]
+
+
+def simulate_parts(times, cores):
+    return max(sum(times[part::cores]) for part in range(cores))
+
+
+def simulate_queue(times, cores):
+    """One process hands out, and the others, as many as there are cores, ask. Chunks as calc_chunk() has them."""
+    free = [(0.0, worker) for worker in range(cores)]
+    heapq.heapify(free)
+    server_free = 0.0
+    handed_out = 0
+    end = 0.0
+    while handed_out < len(times):
+        asked, worker = heapq.heappop(free)
+        answered = max(asked + PAUSE_S, server_free) + QUESTION_S
+        server_free = answered
+        chunk = min(max((len(times) - handed_out) // (4 * cores), 1), 64)
+        done = answered + sum(times[handed_out:handed_out + chunk])
+        handed_out += chunk
+        end = max(end, done)
+        heapq.heappush(free, (done, worker))
+    return end
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", help="rollrig")
+    parser.add_argument("--items", type=int, default=100000)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    print("| items | cores | ideal | `--shard` | `--mpi` | merge | efficiency of `--mpi` with merge | most is lost to |")
+    print("|---|---|---|---|---|---|---|---|")
+    for name, run in WORK.items():
+        with tempfile.TemporaryDirectory() as folder:
+            cost = measure(options.program, run, MEASURED_ITEMS[name], folder)
+        times = draw_times(options.items, cost["item"], options.seed)
+        merge = options.items * cost["record"]
+        for cores in (1, 10, 100, 1000):
+            ideal = sum(times) / cores
+            parts = cost["start"] + simulate_parts(times, cores)
+            queue = cost["start"] + simulate_queue(times, cores)
+            lost = {"start": cost["start"], "hand-out and unequal ends": queue - cost["start"] - ideal, "merge": merge}
+            worst = max(lost, key=lost.get)
+            shown = [f"{seconds:.4g} s" for seconds in (ideal, parts, queue, merge)]
+            print(f"| {name} | {cores} | {' | '.join(shown)} | {100.0 * ideal / (queue + merge):.0f} % | {worst} |")
+        print(f"# {name}: item {1e3 * cost['item']:.3g} ms, start {1e3 * cost['start']:.3g} ms, "
+              f"merge of a record {1e6 * cost['record']:.3g} us")
+
+
+if __name__ == "__main__":
+    main()
