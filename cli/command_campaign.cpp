@@ -118,7 +118,7 @@ void start_over_mpi(const CampaignRunOptions& options) {
   arguments.push_back(nullptr);
   execv(program.c_str(), arguments.data());
   throw usage_error("this rollrig was built without MPI", "--mpi", "",
-                    "a build where Open MPI's libopenmpi-dev is installed; or --shard");
+                    "--shard; or to install Open MPI (libopenmpi-dev, openmpi-bin) and to build rollrig anew");
 }
 
 int campaign_run_command(const CampaignRunOptions& options) {

@@ -7,6 +7,10 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME runtime)
 file(RELATIVE_PATH rollrig_libraries_from_programs "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
 set_target_properties(rollrig PROPERTIES INSTALL_RPATH "$ORIGIN/${rollrig_libraries_from_programs}")
 install(TARGETS rollrig RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+if(ROLLRIG_MPI_FOUND AND NOT ROLLRIG_DEBIAN_PACKAGES)  # a package would depend on Open MPI for all users
+  set_target_properties(rollrig_mpi PROPERTIES INSTALL_RPATH "$ORIGIN/${rollrig_libraries_from_programs}")
+  install(TARGETS rollrig_mpi RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+endif()
 install(DIRECTORY assets/ DESTINATION "${CMAKE_INSTALL_DATADIR}/rollrig/assets")
 
 install(FILES "${PROJECT_BINARY_DIR}/cli/rollrig.1.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")

@@ -111,7 +111,7 @@ Tally hand_out_items(const ItemList& list, const CampaignFolder& folder, const R
 #else
 Tally hand_out_items(const ItemList&, const CampaignFolder&, const Ranks&, const std::function<void(double)>&) {
   throw InputError({"this rollrig was built without MPI", "command line", 0, "--mpi", "",
-                    "a build where Open MPI's libopenmpi-dev is installed; or --shard", ""});
+                    "--shard; or to install Open MPI (libopenmpi-dev, openmpi-bin) and to build rollrig anew", ""});
 }
 #endif
 
