@@ -11,6 +11,7 @@
 #include "api/data.h"
 #include "campaigns/items.h"
 #include "rollrig/version.h"
+#include "sim/core/csv.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/parse_json.h"
@@ -96,8 +97,23 @@ void add_uncertain(const ConfigTable& table, const std::string& prefix, std::vec
   }
 }
 
-std::vector<campaigns::Factor> list_factors(const RunCampaignInput& input, const scenarios::RunSpec& spec) {
+/// The columns of a list. Throws InputError; none where `path` is empty.
+std::vector<campaigns::Factor> read_list(const std::string& path) {
   std::vector<campaigns::Factor> factors;
+  if (path.empty()) return factors;
+  const CsvTable table = CsvTable::read(path);
+  for (const std::string& column : table.columns()) {
+    factors.push_back({column, campaigns::Factor::Kind::kValues, table.text(column)});
+    const auto empty = std::find(factors.back().values.begin(), factors.back().values.end(), "");
+    if (empty == factors.back().values.end()) continue;
+    throw table.cell_error(static_cast<std::size_t>(empty - factors.back().values.begin()), column,
+                           "a setting without a value", "a value in each row");
+  }
+  return factors;
+}
+
+std::vector<campaigns::Factor> list_factors(const RunCampaignInput& input, const scenarios::RunSpec& spec) {
+  std::vector<campaigns::Factor> factors = read_list(input.list);
   for (const SweepAxis& axis : input.axes) factors.push_back({axis.key, campaigns::Factor::Kind::kValues, axis.values});
   for (const std::string& text : input.drawn) factors.push_back(campaigns::read_drawn_factor(text));
   for (const std::string& name : input.drawn_sd) {
@@ -273,7 +289,22 @@ CampaignDefinition CampaignDefinition::read(const std::string& content, const st
   return definition;
 }
 
+namespace {
+
+/// A list says all that differs.
+void require_list_alone(const RunCampaignInput& input) {
+  const bool has_others = !input.axes.empty() || !input.drawn.empty() || !input.drawn_sd.empty();
+  const bool has_other_design = !input.design.empty() && input.design != campaigns::kList;
+  if (input.list.empty() || (!has_others && !has_other_design)) return;
+  throw InputError({"a list says all that differs between the items", "command line", 0, "--list", input.list,
+                    has_others ? "--list without --vary and --draw" : "--list with --design list, or without --design",
+                    ""});
+}
+
+}  // namespace
+
 CampaignDefinition make_definition(const RunCampaignInput& input) {
+  require_list_alone(input);
   CampaignDefinition definition;
   definition.version = library_version();
   definition.run = input.run;
@@ -290,7 +321,10 @@ CampaignDefinition make_definition(const RunCampaignInput& input) {
   if (spec.vehicle.has_value()) definition.run.vehicle = fs::absolute(spec.vehicle->path).string();
   campaigns::DesignInput& design = definition.design;
   const bool is_drawn = !input.drawn.empty() || !input.drawn_sd.empty();
-  design.name = !input.design.empty() ? input.design : is_drawn ? campaigns::kMonteCarlo : campaigns::kGrid;
+  design.name = !input.design.empty() ? input.design
+                : is_drawn            ? campaigns::kMonteCarlo
+                : input.list.empty()  ? campaigns::kGrid
+                                      : campaigns::kList;
   design.factors = list_factors(input, spec);
   for (campaigns::Factor& factor : design.factors) {
     for (std::string& value : factor.values) make_absolute_if_file(value);

@@ -1,6 +1,7 @@
 #include "api/run_items.h"
 
 #include <algorithm>
+#include <set>
 
 #include "api/data.h"
 #include "sim/core/file_io.h"
@@ -20,10 +21,15 @@ void carry_out_quickly(scenarios::RunSpec spec) {
   }
 }
 
+constexpr std::size_t kMostChecked = 1000;  // Assumed: takes some seconds
+
 }  // namespace
 
 RunItems::RunItems(const CampaignDefinition& definition)
-    : run_(definition.run), factors_(definition.design.factors), design_(campaigns::make_design(definition.design)) {}
+    : run_(definition.run),
+      factors_(definition.design.factors),
+      is_list_(definition.design.name == campaigns::kList),
+      design_(campaigns::make_design(definition.design)) {}
 
 std::vector<std::string> RunItems::list_keys() const {
   std::vector<std::string> keys;
@@ -45,14 +51,30 @@ Json RunItems::carry_out(std::size_t item, std::uint64_t seed) const {
   return result;
 }
 
-std::vector<CampaignFile> RunItems::check() const {
-  const ReadRecorder recorder;
-  const auto check_at = [this](const std::vector<std::string>& values) {
-    const scenarios::RunSpec spec = read(values, 1);
-    scenarios::prepare_run(spec);
+void RunItems::check_at(const std::vector<std::string>& values) const {
+  const scenarios::RunSpec spec = read(values, 1);
+  scenarios::prepare_run(spec);
+}
+
+void RunItems::check_list() const {
+  std::set<std::string> words;  // such as names of tires, each of which stands for a file
+  for (std::size_t item = 0; item < count(); ++item) {
+    const std::vector<std::string> values = calc_values(item);
+    bool has_new_word = false;
+    for (const std::string& value : values) {
+      if (!parse_number(value).has_value() && words.insert(value).second) has_new_word = true;
+    }
+    if (count() <= kMostChecked || has_new_word || item == 0 || item + 1 == count()) check_at(values);
+  }
+  carry_out_quickly(read(calc_values(0), 1));  // some files are read only then
+}
+
+void RunItems::check_combinations() const {
+  const auto has_values = [](const campaigns::Factor& factor) {
+    return factor.kind == campaigns::Factor::Kind::kValues;
   };
-  const auto is_list = [](const campaigns::Factor& factor) { return factor.kind == campaigns::Factor::Kind::kValues; };
-  if (std::all_of(factors_.begin(), factors_.end(), is_list)) {
+  if (std::all_of(factors_.begin(), factors_.end(), has_values)) {
+    for (std::size_t item = 0; count() <= kMostChecked && item < count(); ++item) check_at(calc_values(item));
     check_at(calc_values(0));
     check_at(calc_values(count() - 1));
   }
@@ -67,6 +89,15 @@ std::vector<CampaignFile> RunItems::check() const {
       values[f] = value;
       check_at(values);
     }
+  }
+}
+
+std::vector<CampaignFile> RunItems::check() const {
+  const ReadRecorder recorder;
+  if (is_list_) {
+    check_list();
+  } else {
+    check_combinations();
   }
   return hash_files(recorder.list_files());
 }

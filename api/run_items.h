@@ -24,17 +24,24 @@ class RunItems : public CampaignItems {
   std::vector<std::string> list_keys() const override;
   /// The value of each factor.
   std::vector<std::string> calc_values(std::size_t item) const override { return design_->calc_values(item); }
-  /// Reads and prepares items: of a grid its first and its last item and one with each word or path that a factor
-  /// takes, of draws the item at the median of each factor. Carries out one item, in the quicker fidelity.
+  /// Reads and prepares items: of a grid or a list all, if they are at most 1000, else the first, the last, and one
+  /// with each word or path that a factor takes; of draws the item at the median of each factor. Carries out one item,
+  /// in the quicker fidelity.
   std::vector<CampaignFile> check() const override;
   void learn_names(const Json& result) override { flattener_.learn_names(result); }
   Json flatten(const Json& result) const override { return flattener_.flatten(result); }
 
  private:
   scenarios::RunSpec read(const std::vector<std::string>& values, std::uint64_t seed) const;
+  void check_at(const std::vector<std::string>& values) const;
+  /// Of a list, whose values belong together.
+  void check_list() const;
+  /// Of a design in which every value may meet every other.
+  void check_combinations() const;
 
   RunInput run_;
   std::vector<campaigns::Factor> factors_;
+  bool is_list_;
   std::unique_ptr<campaigns::Design> design_;
   scenarios::ResultFlattener flattener_;
 };

@@ -6,6 +6,7 @@
 
 #include "diagnosis/output/diagnosis_json.h"
 #include "diagnosis/output/fleet.h"
+#include "include/rollrig/assets.h"
 #include "measurements/measurement_set.h"
 #include "sim/core/file_io.h"
 
@@ -45,6 +46,8 @@ std::vector<CampaignFile> SetItems::check() const {
       if (++failed == count()) throw;
     }
   }
+  // A diagnosis may ask whether another tire of the assets was measured (diagnosis/checks/tire_checks.cpp).
+  for (const std::string& name : list_assets("tires")) read_text_file(find_asset("tires", name));
   return hash_files(recorder.list_files());
 }
 

@@ -19,7 +19,7 @@ class SetItems : public CampaignItems {
 
   std::vector<std::string> list_keys() const override { return {"set", "folder"}; }
   std::vector<std::string> calc_values(std::size_t item) const override;
-  /// Reads all sets. Throws InputError where none can be read.
+  /// Reads all sets, and the tires of the assets. Throws InputError where no set can be read.
   std::vector<CampaignFile> check() const override;
   /// Machine, tire, verdict, cause, its probability, and the gap in noise floors without and with it.
   Json flatten(const Json& result) const override;

@@ -60,6 +60,22 @@ class Grid : public Design {
   std::vector<Factor> factors_;
 };
 
+class List : public Design {
+ public:
+  explicit List(std::vector<Factor> factors) : factors_(std::move(factors)) {}
+
+  std::size_t count_items() const override { return factors_.front().values.size(); }
+
+  std::vector<std::string> calc_values(std::size_t item) const override {
+    std::vector<std::string> values;
+    for (const Factor& factor : factors_) values.push_back(factor.values[item]);
+    return values;
+  }
+
+ private:
+  std::vector<Factor> factors_;
+};
+
 /// A design whose items are points of the unit cube: a coordinate is the probability that the factor lies below.
 class UnitCube : public Design {
  public:
@@ -228,11 +244,11 @@ void check(const DesignInput& input) {
     problem.key = "--design";
     throw InputError(problem);
   }
-  const bool is_grid = input.name == kGrid;
+  const bool has_values = input.name == kGrid || input.name == kList;  // and no distributions
   if (input.factors.empty()) {
-    throw bad_design(
-        "nothing differs between the items", is_grid ? "--vary" : "--draw", "",
-        is_grid ? "--vary key=a,b,c" : "--draw key=normal:MEAN:SD, --draw key=uniform:LOW:HIGH, --draw-sd");
+    throw bad_design("nothing differs between the items", has_values ? "--vary" : "--draw", "",
+                     has_values ? "--vary key=a,b,c; --list FILE"
+                                : "--draw key=normal:MEAN:SD, --draw key=uniform:LOW:HIGH, --draw-sd");
   }
   if (input.factors.size() > kMostFactors) {
     throw bad_design("too many factors", "--draw", std::to_string(input.factors.size()),
@@ -257,9 +273,16 @@ void check(const DesignInput& input) {
     if (factor->kind == Factor::Kind::kValues && factor->values.empty()) {
       throw bad_design(fmt::format("'{}' has no values", factor->key), "--vary", factor->key, "at least one value");
     }
-    if (is_grid && factor->kind != Factor::Kind::kValues) {
-      throw bad_design(fmt::format("a grid has values of '{}', and no distribution", factor->key), "--design", kGrid,
-                       fmt::format("--vary, or one of {}", fmt::join(known.begin() + 1, known.end(), ", ")));
+    if (has_values && factor->kind != Factor::Kind::kValues) {
+      throw bad_design(fmt::format("a {} has values of '{}', and no distribution", input.name, factor->key), "--design",
+                       input.name,
+                       fmt::format("--vary, or one of {}", fmt::join(known.begin() + 2, known.end(), ", ")));
+    }
+    const std::size_t count = input.factors.front().values.size();
+    if (input.name == kList && factor->values.size() != count) {
+      throw bad_design(fmt::format("a list has as many values of '{}' as of '{}'", factor->key, input.factors[0].key),
+                       "--vary", fmt::format("{} and {} values", factor->values.size(), count),
+                       "the same number of values of each; or --design grid");
     }
   }
   const bool needs_independence = input.name == kSobolIndices || input.name == kMorris;
@@ -269,10 +292,11 @@ void check(const DesignInput& input) {
                                  input.factors[pair.first].key, input.factors[pair.second].key, input.name),
                      "--design", input.name, "--draw for factors that are independent; or another design");
   }
-  if (is_grid != (input.points == 0)) {
-    throw bad_design(is_grid ? "the points of a grid follow from its values" : "no number of points is given",
-                     "--points", is_grid ? std::to_string(input.points) : "",
-                     is_grid ? "no --points, or another --design" : "--points N");
+  if (has_values != (input.points == 0)) {
+    throw bad_design(has_values ? fmt::format("the points of a {} follow from its values", input.name)
+                                : "no number of points is given",
+                     "--points", has_values ? std::to_string(input.points) : "",
+                     has_values ? "no --points, or another --design" : "--points N");
   }
 }
 
@@ -289,7 +313,7 @@ void require_few(const std::vector<std::size_t>& counts) {
 }  // namespace
 
 std::vector<std::string> design_names() {
-  return {kGrid, kMonteCarlo, kLatinHypercube, kSobol, kSobolIndices, kMorris};
+  return {kGrid, kList, kMonteCarlo, kLatinHypercube, kSobol, kSobolIndices, kMorris};
 }
 
 Trajectory make_trajectory(std::uint64_t seed, std::size_t trajectory, std::size_t factors) {
@@ -316,6 +340,10 @@ std::unique_ptr<Design> make_design(const DesignInput& input) {
     for (const Factor& factor : input.factors) counts.push_back(factor.values.size());
     require_few(counts);
     return std::make_unique<Grid>(input.factors);
+  }
+  if (input.name == kList) {
+    require_few({input.factors.front().values.size()});
+    return std::make_unique<List>(input.factors);
   }
   if (input.name == kSobolIndices) {
     require_few({input.points, factors + 2});

@@ -32,9 +32,9 @@ struct FactorPair {
 struct DesignInput {
   std::string name;  // one of design_names()
   std::vector<Factor> factors;
-  std::size_t points = 0;  // 0 for a grid
+  std::size_t points = 0;  // 0 for a grid and a list
   std::uint64_t seed = 1;
-  std::vector<FactorPair> correlated = {};  // not for kGrid, kSobolIndices, kMorris
+  std::vector<FactorPair> correlated = {};  // not for kGrid, kList, kSobolIndices, kMorris
 };
 
 constexpr std::size_t kMostItems = 10'000'000;  // Assumed: each needs a bit of memory and a row of a file
@@ -43,6 +43,8 @@ constexpr std::size_t kMostFactors = 1000;  // Assumed; Boost's Sobol' sequence 
 
 /// Every value with every other: the last factor changes first.
 constexpr const char* kGrid = "grid";
+/// The first value of each factor together, then the second of each, and so on.
+constexpr const char* kList = "list";
 /// Independent draws; item i has a stream of random numbers of its own.
 constexpr const char* kMonteCarlo = "monte_carlo";
 /// Each factor's range is divided into as many stretches of equal probability as there are points, and each stretch is

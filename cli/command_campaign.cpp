@@ -215,6 +215,7 @@ void add_new_campaign(CLI::App& campaign, Action& action) {
   command->add_option("--vary", options->vary, "Of a grid: key=a,b,c or key=from:to:step; may be repeated")
       ->expected(1)
       ->take_all();
+  command->add_option("--list", input.list, "CSV file with a column for each setting and a row for each item");
   command->add_option("--draw", input.drawn, "key=uniform:LOW:HIGH or key=normal:MEAN:SD; may be repeated")
       ->expected(1)
       ->take_all();
@@ -223,10 +224,10 @@ void add_new_campaign(CLI::App& campaign, Action& action) {
                    "tire, rig, vehicle, with commas: every number of that file beside its standard uncertainty, as a "
                    "normal distribution")
       ->delimiter(',');
-  command->add_option(
-      "--design", input.design,
-      fmt::format("{} [grid; where something is drawn, monte_carlo]", fmt::join(campaign_designs(), ", ")));
-  command->add_option("--points", input.points, "Points of a design that is no grid")->check(CLI::Range(1, 10000000));
+  command->add_option("--design", input.design,
+                      fmt::format("{} [grid; with --list, list; where something is drawn, monte_carlo]",
+                                  fmt::join(campaign_designs(), ", ")));
+  command->add_option("--points", input.points, "Points of a design that draws")->check(CLI::Range(1, 10000000));
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }
 

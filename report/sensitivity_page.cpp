@@ -75,7 +75,7 @@ std::string name_bin(const std::vector<double>& limits, std::size_t bin) {
 
 std::string with_unit(const std::string& key) {
   const std::string unit = shown_unit(last_part(key));
-  return plain_name(last_part(key)) + (unit.empty() ? "" : ", " + unit);
+  return plain_name(last_part(key)) + (unit.empty() ? "" : " in " + unit);
 }
 
 /// The mean result over two factors, each in bins that hold equally many items.
@@ -114,7 +114,7 @@ Block make_map(const std::string& result, const FactorScatter& across, const Fac
   visit(
       [&](std::size_t row, std::size_t column) { largest = std::max(largest, std::abs(mean_of(row, column) - mean)); });
   Block block{{"type", "map"},
-              {"caption", fmt::format("Mean {} over the two factors that matter most", with_unit(result))},
+              {"caption", fmt::format("Mean of {} over the two factors that matter most", with_unit(result))},
               {"heads", {with_unit(down.key), ""}},
               {"columns", Json::array()},
               {"rows", Json::array()},

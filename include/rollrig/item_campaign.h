@@ -27,8 +27,10 @@ struct RunCampaignInput {
   std::vector<SweepAxis> axes;        // of a grid: every value with every other
   std::vector<std::string> drawn;     // "key=uniform:LOW:HIGH" or "key=normal:MEAN:SD"
   std::vector<std::string> drawn_sd;  // "tire", "rig", "vehicle": every number with an _sd in that file is normal
-  std::string design;                 // one of campaign_designs(); empty: grid, or monte_carlo where something is drawn
-  std::size_t points = 0;             // of a design that is no grid
+  std::string list;                   // CSV file of a list: a column for each setting, a row for each item
+  std::string design;                 // one of campaign_designs(); empty: grid, list, or monte_carlo where something is
+                                      // drawn
+  std::size_t points = 0;             // of a design that draws
 };
 
 std::vector<std::string> campaign_designs();

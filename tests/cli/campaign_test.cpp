@@ -104,6 +104,28 @@ TEST_CASE("traces of a campaign are watched and found from any folder", "[fast]"
   CHECK_THAT(changed.err, Catch::Contains("b.csv"));
 }
 
+TEST_CASE("a list has its rows as items", "[fast]") {
+  const TemporaryFolder at;
+  write_file(at.file("list.csv"), "load_N,ambient_degC,tire.name\n5000,20,\n6000,25,\n");
+  const ProgramResult empty = run_program(std::string("campaign new c ") + kRun + " --list list.csv", at.path());
+  CHECK(empty.status == 2);
+  CHECK_THAT(flatten(empty.err), Catch::Contains("list.csv, line 2") && Catch::Contains("tire.name"));
+  write_file(at.file("list.csv"), "load_N,ambient_degC\n5000,20\n6000,25\n4000,30\n");
+  run_to_end(std::string("campaign new c ") + kRun + " --list list.csv", at);
+  run_to_end("campaign run c", at);
+  const std::string csv = run_to_end("campaign export c --csv -", at);
+  CHECK_THAT(csv,
+             Catch::Contains("\n1,5000,20,") && Catch::Contains("\n2,6000,25,") && Catch::Contains("\n3,4000,30,"));
+  run_to_end(
+      std::string("campaign new pairs ") + kRun + " --design list --vary load_N=5000,6000 --vary ambient_degC=20,25",
+      at);
+  CHECK_THAT(run_to_end("campaign status pairs", at), Catch::Contains("0 of 2 items"));
+  for (const char* wrong : {" --list list.csv --vary pressure_kPa=250,260", " --list list.csv --design grid",
+                            " --design list --vary load_N=5000,6000 --vary ambient_degC=20"}) {
+    CHECK(run_program(std::string("campaign new wrong ") + kRun + wrong, at.path()).status == 2);
+  }
+}
+
 TEST_CASE("items that fail are kept, counted and told", "[fast]") {
   const TemporaryFolder at;
   run_to_end(std::string("campaign new c ") + kRun + " --draw pressure_kPa=uniform:-100:400 --points 12 --seed 2", at);
@@ -171,6 +193,8 @@ TEST_CASE("a campaign of diagnoses has what a diagnosis of the folder has", "[sl
     std::filesystem::copy(example, at.file(name), std::filesystem::copy_options::recursive);
   }
   write_file(at.file("sets/broken/tire.toml"), "format = \"rollrig-tire/2\"\n");
+  // Of a tire that fits far worse than others, the diagnosis reads those of the assets.
+  write_file(at.file("sets/two/tire.toml"), read_file(std::string(ROLLRIG_SOURCE_DIR) + "/assets/tires/a60.toml"));
   const std::string options = " --only bearing_warmup,convection_law,torque_gain";
   const ProgramResult alone = run_program("diagnose sets --quiet --json alone.json" + options, at.path());
   CHECK(alone.status == 2);
