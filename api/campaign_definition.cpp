@@ -365,7 +365,7 @@ void require_same(const CampaignFile& file) {
 FileWatch::FileWatch(const std::vector<CampaignFile>& files) {
   for (const CampaignFile& file : files) {
     require_file(file.path);
-    known_.push_back({file, fs::last_write_time(file.path), fs::file_size(file.path)});  // before it is read
+    known_[file.path] = {file, fs::last_write_time(file.path), fs::file_size(file.path)};  // before it is read
     require_same(file);
   }
 }
@@ -378,17 +378,24 @@ void FileWatch::require_known(const std::vector<std::string>& paths) const {
   }
 }
 
-bool FileWatch::knows(const std::string& path) const {
-  return std::any_of(known_.begin(), known_.end(), [&path](const Known& known) { return known.file.path == path; });
+bool FileWatch::knows(const std::string& path) const { return known_.count(path) > 0; }
+
+void FileWatch::require_unchanged(const Known& known) {
+  std::error_code error;
+  const bool is_same_time = fs::last_write_time(known.file.path, error) == known.time && !error;
+  if (is_same_time && fs::file_size(known.file.path, error) == known.size && !error) return;
+  require_file(known.file.path);
+  require_same(known.file);
 }
 
 void FileWatch::require_unchanged() const {
-  for (const Known& known : known_) {
-    std::error_code error;
-    const bool is_same_time = fs::last_write_time(known.file.path, error) == known.time && !error;
-    if (is_same_time && fs::file_size(known.file.path, error) == known.size && !error) continue;
-    require_file(known.file.path);
-    require_same(known.file);
+  for (const auto& [path, known] : known_) require_unchanged(known);
+}
+
+void FileWatch::require_unchanged(const std::vector<std::string>& paths) const {
+  for (const std::string& path : paths) {
+    const auto known = known_.find(path);
+    if (known != known_.end()) require_unchanged(known->second);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,8 @@ class FileWatch {
 
   /// The same, quickly: a file is read again only where its time or size has changed. Called from several threads.
   void require_unchanged() const;
+  /// The same of some of the files.
+  void require_unchanged(const std::vector<std::string>& paths) const;
   /// Throws CampaignChanged for a file that is none of them, such as a tire of the same name in another folder of
   /// assets.
   void require_known(const std::vector<std::string>& paths) const;
@@ -61,7 +64,9 @@ class FileWatch {
     std::uintmax_t size = 0;
   };
 
-  std::vector<Known> known_;
+  static void require_unchanged(const Known& known);
+
+  std::map<std::string, Known> known_;  // by path
 };
 
 }  // namespace rollrig

@@ -2,48 +2,34 @@
 /// The items of a campaign of either kind, with what their table shows.
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "api/campaign_definition.h"
-#include "campaigns/items.h"
+#include "api/watched_items.h"
 
 namespace rollrig {
 
-class CampaignItems : public campaigns::ItemList {
+class CampaignItems : public WatchedItems {
  public:
-  /// Throws InputError where a file of the campaign has changed. To be called before the first item is carried out.
-  void watch_files(const std::vector<CampaignFile>& files) { watch_.emplace(files); }
-  void require_unchanged() const override {
-    if (watch_.has_value()) watch_->require_unchanged();
-  }
-
-  /// The files that the items read. Throws InputError where one of the items is wrong, as far as that can be told
+  /// What is found before any item is carried out.
+  struct Check {
+    std::vector<CampaignFile> files;    // that the items read
+    std::vector<std::string> warnings;  // of items that will fail, a text each
+  };
+  /// Throws InputError where one of the items of a design, or each of the sets, is wrong, as far as that can be told
   /// without carrying out all of them.
-  virtual std::vector<CampaignFile> check() const = 0;
-  /// What tells items from each other: names, and the values of an item.
+  virtual Check check() const = 0;
+
+  /// Names of the columns that identify an item, and their values for one item.
   virtual std::vector<std::string> list_keys() const = 0;
   virtual std::vector<std::string> calc_values(std::size_t item) const = 0;
-  /// A result as an object of numbers and texts, for the columns of a table. To be used once all results are learned.
+  /// Takes the names of a result's numbers. To be called with all results before the first is flattened.
   virtual void learn_names(const Json&) {}
+  /// A result as an object of numbers and texts, for the columns of a table. Throws InputError where it is damaged.
   virtual Json flatten(const Json& result) const = 0;
-
- protected:
-  /// Throws CampaignChanged for a file that is none of the campaign's.
-  void require_known(const std::vector<std::string>& files) const {
-    if (watch_.has_value()) watch_->require_known(files);
-  }
-  bool knows(const std::string& file) const { return watch_.has_value() && watch_->knows(file); }
-
- private:
-  std::optional<FileWatch> watch_;
 };
 
 /// Runs or diagnoses. Throws InputError for a design that cannot be made.
 std::unique_ptr<CampaignItems> make_items(const CampaignDefinition& definition);
-
-/// Files with their SHA-256.
-std::vector<CampaignFile> hash_files(const std::vector<std::string>& paths);
 
 }  // namespace rollrig

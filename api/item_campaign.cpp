@@ -13,6 +13,7 @@
 #include "api/item_table.h"
 #include "api/open_campaign.h"
 #include "api/sensitivity.h"
+#include "api/set_items.h"
 #include "campaigns/items.h"
 #include "campaigns/store.h"
 #include "diagnosis/output/fleet.h"
@@ -62,16 +63,18 @@ std::optional<CampaignPart> find_launched_part() { return from_environment(campa
 
 namespace {
 
-/// What `make` says, in a new folder.
-void write_definition(const std::string& folder, const std::function<CampaignDefinition()>& make) {
+/// What `make` says, in a new folder. Returns what is warned of.
+std::vector<std::string> write_definition(const std::string& folder, const std::function<CampaignDefinition()>& make) {
   std::error_code none;
   if (fs::exists(folder, none) && !fs::is_empty(folder, none)) {
     throw InputError({fmt::format("'{}' is there already and holds files", folder), "command line", 0, "folder", folder,
                       "a new or an empty folder", ""});
   }
   CampaignDefinition definition = make();
-  definition.files = make_items(definition)->check();
+  const CampaignItems::Check found = make_items(definition)->check();
+  definition.files = found.files;
   write_folder(folder, {{kCampaignFileName, definition.to_text()}});
+  return found.warnings;
 }
 
 }  // namespace
@@ -80,12 +83,12 @@ void define_run_campaign(const RunCampaignInput& input, const std::string& folde
   write_definition(folder, [&input] { return make_definition(input); });
 }
 
-void define_diagnosis_campaign(const DiagnosisCampaignInput& input, const std::string& folder) {
-  DiagnosisOptions options;
-  options.only = input.only;
-  options.without = input.without;
-  diagnosis::require_valid_options(options);
-  write_definition(folder, [&input] { return make_definition(input); });
+std::vector<std::string> define_diagnosis_campaign(const DiagnosisCampaignInput& input, const std::string& folder) {
+  if (input.sets.empty()) {
+    throw InputError({"there is no set to diagnose", "", 0, "sets", "", "folders of measurement sets", ""});
+  }
+  diagnosis::require_valid_options(make_diagnosis_options(input));
+  return write_definition(folder, [&input] { return make_definition(input); });
 }
 
 ItemCampaign::ItemCampaign(const std::string& folder) : data_(std::make_shared<Data>(Data{open_campaign(folder)})) {}

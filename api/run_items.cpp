@@ -10,7 +10,10 @@
 namespace rollrig {
 namespace {
 
-/// Runs a scenario in its quicker fidelity, where it has two. That the run fails is no matter here.
+constexpr std::size_t kMostChecked = 1000;  // Assumed: takes some seconds
+
+}  // namespace
+
 void carry_out_quickly(scenarios::RunSpec spec) {
   for (const scenarios::Fidelity fidelity : spec.scenario->fidelities) {
     if (fidelity == scenarios::Fidelity::kQuasiStatic) spec.fidelity = fidelity;
@@ -20,10 +23,6 @@ void carry_out_quickly(scenarios::RunSpec spec) {
   } catch (const RunFailure&) {
   }
 }
-
-constexpr std::size_t kMostChecked = 1000;  // Assumed: takes some seconds
-
-}  // namespace
 
 RunItems::RunItems(const CampaignDefinition& definition)
     : run_(definition.run),
@@ -92,14 +91,14 @@ void RunItems::check_combinations() const {
   }
 }
 
-std::vector<CampaignFile> RunItems::check() const {
+CampaignItems::Check RunItems::check() const {
   const ReadRecorder recorder;
   if (is_list_) {
     check_list();
   } else {
     check_combinations();
   }
-  return hash_files(recorder.list_files());
+  return {hash_files(recorder.list_files()), {}};
 }
 
 scenarios::RunSpec RunItems::read(const std::vector<std::string>& values, std::uint64_t seed) const {

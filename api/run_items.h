@@ -11,6 +11,10 @@
 
 namespace rollrig {
 
+/// Runs a scenario in its quicker fidelity, where it has two, for the files that are read only then. That the run fails
+/// does not matter.
+void carry_out_quickly(scenarios::RunSpec spec);
+
 class RunItems : public CampaignItems {
  public:
   /// Throws InputError for a design that cannot be made.
@@ -27,7 +31,7 @@ class RunItems : public CampaignItems {
   /// Reads and prepares items: of a grid or a list all, if they are at most 1000, else the first, the last, and one
   /// with each word or path that a factor takes; of draws the item at the median of each factor. Carries out one item,
   /// in the quicker fidelity.
-  std::vector<CampaignFile> check() const override;
+  Check check() const override;
   void learn_names(const Json& result) override { flattener_.learn_names(result); }
   Json flatten(const Json& result) const override { return flattener_.flatten(result); }
 

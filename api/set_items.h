@@ -5,8 +5,12 @@
 #include <vector>
 
 #include "api/campaign_items.h"
+#include "include/rollrig/findings.h"
 
 namespace rollrig {
+
+/// How a campaign of diagnoses diagnoses a set.
+DiagnosisOptions make_diagnosis_options(const DiagnosisCampaignInput& input);
 
 class SetItems : public CampaignItems {
  public:
@@ -19,8 +23,10 @@ class SetItems : public CampaignItems {
 
   std::vector<std::string> list_keys() const override { return {"set", "folder"}; }
   std::vector<std::string> calc_values(std::size_t item) const override;
-  /// Reads all sets, and the tires of the assets. Throws InputError where no set can be read.
-  std::vector<CampaignFile> check() const override;
+  /// Reads all sets, and the tires of the assets. A set that cannot be read is warned of.
+  Check check() const override;
+  /// Nothing: carry_out() asks for the files that it has read. There may be thousands of others.
+  void require_unchanged() const override {}
   /// Machine, tire, verdict, cause, its probability, and the gap in noise floors without and with it.
   Json flatten(const Json& result) const override;
 

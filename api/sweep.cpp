@@ -232,8 +232,9 @@ void open_kept(const campaigns::CampaignFolder& folder) {
   if (!is_there(folder.path)) {
     write_folder(folder.path, {{kDefinitionFile, folder.definition}});
   } else if (!is_there(file) || read_text_file(file) != folder.definition) {
-    throw InputError({fmt::format("'{}' holds what is done of another sweep", folder.path), folder.path, 0, "", "",
-                      "the settings, files and version of that sweep, to go on with it; or no such folder", ""});
+    throw InputError({fmt::format("'{}' holds the points of another, unfinished sweep", folder.path), "command line", 0,
+                      "--out", folder.path,
+                      "the settings, files and version of that sweep, to go on with it; or delete the folder", ""});
   }
 }
 

@@ -1,7 +1,7 @@
 #include "api/sweep_items.h"
 
-#include "api/campaign_items.h"
 #include "api/data.h"
+#include "api/run_items.h"
 #include "rollrig/version.h"
 #include "sim/core/file_io.h"
 
@@ -14,8 +14,10 @@ Json SweepItems::describe(std::size_t item) const {
 }
 
 Json SweepItems::carry_out(std::size_t item, std::uint64_t) const {
+  const ReadRecorder recorder;
   const scenarios::RunSpec spec = read(item);
   const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+  if (!input_.kept_in.empty()) require_known(recorder.list_files());
   return {{"result", outcome.result}, {"manifest", scenarios::make_manifest(spec, outcome)}};
 }
 
@@ -30,8 +32,9 @@ scenarios::RunSpec SweepItems::read(std::size_t item) const {
 void SweepItems::check() {
   const ReadRecorder recorder;
   for (std::size_t item = 0; item < count(); ++item) scenarios::prepare_run(read(item));
+  if (!input_.kept_in.empty()) carry_out_quickly(read(0));
   files_ = hash_files(recorder.list_files());
-  watch_.emplace(files_);
+  watch_files(files_);
 }
 
 std::string SweepItems::define(std::uint64_t seed) const {

@@ -1,12 +1,10 @@
 #pragma once
 /// The points of a sweep as items.
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "api/campaign_definition.h"
-#include "campaigns/items.h"
+#include "api/watched_items.h"
 #include "rollrig/sweep.h"
 #include "scenarios/run/scenario.h"
 
@@ -15,7 +13,7 @@ namespace rollrig {
 using SweepPoint = std::vector<std::string>;  // a value of each axis
 
 /// Each point has the seed of the sweep, so that they differ by the axes alone.
-class SweepItems : public campaigns::ItemList {
+class SweepItems : public WatchedItems {
  public:
   SweepItems(SweepInput input, std::vector<SweepPoint> points) : input_(std::move(input)), points_(std::move(points)) {}
 
@@ -24,14 +22,12 @@ class SweepItems : public campaigns::ItemList {
   /// `result` and `manifest` of the run.
   Json carry_out(std::size_t item, std::uint64_t seed) const override;
   std::uint64_t calc_seed(std::size_t, std::uint64_t sweep_seed) const override { return sweep_seed; }
-  void require_unchanged() const override {
-    if (watch_.has_value()) watch_->require_unchanged();
-  }
 
   const SweepInput& input() const { return input_; }
   const std::vector<SweepPoint>& points() const { return points_; }
   scenarios::RunSpec read(std::size_t item) const;
-  /// Reads all points, and watches their files from then on. Throws InputError where one is wrong.
+  /// Reads all points, and watches their files from then on. If points are kept, it also carries out one in the quicker
+  /// fidelity, for the files that are read only then. Throws InputError where one is wrong.
   void check();
   /// All that the results depend on, as a text: two sweeps have the same if their results are the same.
   std::string define(std::uint64_t seed) const;
@@ -40,7 +36,6 @@ class SweepItems : public campaigns::ItemList {
   SweepInput input_;
   std::vector<SweepPoint> points_;
   std::vector<CampaignFile> files_;
-  std::optional<FileWatch> watch_;
 };
 
 }  // namespace rollrig

@@ -84,6 +84,16 @@ struct DoneItems {
   void add(const CampaignFolder& folder, const std::string& file) {
     read_items(file, folder.definition, [&](std::size_t item, bool failed) { add(file, item, failed); });
   }
+  /// The same, unless a process writes the file now: returns false then.
+  bool try_add(const CampaignFolder& folder, const std::string& file) {
+    if (is_in_use(file)) return false;  // sooner than the file is waited for
+    try {
+      add(folder, file);
+      return true;
+    } catch (const FileInUse&) {
+      return false;
+    }
+  }
 
   /// Of a part alone, as the next one.
   std::vector<std::size_t> list_open(const Part& part) const {
@@ -104,14 +114,14 @@ struct DoneItems {
   }
 };
 
-/// Files of other numbers of parts that nobody writes now. Other parts of the same number have no items of this one,
+/// Files of other numbers of parts. Other parts of the same number have no items of this one,
 /// and their processes are left alone.
 std::vector<std::string> list_other_splits(const CampaignFolder& folder, const Part& part) {
   std::set<std::string> same_split;
   for (std::size_t number = 1; number <= part.count; ++number) same_split.insert(folder.file_of({number, part.count}));
   std::vector<std::string> others;
   for (const std::string& file : folder.list_files()) {
-    if (same_split.count(file) == 0 && !is_in_use(file)) others.push_back(file);
+    if (same_split.count(file) == 0) others.push_back(file);
   }
   return others;
 }
@@ -216,7 +226,7 @@ OpenItems find_open_items(const ItemList& list, const CampaignFolder& folder) {
 Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Part& part, int threads,
                       const std::function<void(double)>& advance) {
   DoneItems done(list.count());
-  for (const std::string& file : list_other_splits(folder, part)) done.add(folder, file);
+  for (const std::string& file : list_other_splits(folder, part)) done.try_add(folder, file);
   const std::string path = folder.file_of(part);
   Tally tally = done.count(part);
   if (tally.done == tally.items && !is_there(path)) return tally;
@@ -236,11 +246,7 @@ FolderState read_state(const CampaignFolder& folder, std::size_t items) {
   FolderState state;
   DoneItems done(items);
   for (const std::string& file : folder.list_files()) {
-    if (is_in_use(file)) {
-      state.running.push_back(file);
-    } else {
-      done.add(folder, file);
-    }
+    if (!done.try_add(folder, file)) state.running.push_back(file);
   }
   state.tally = done.count({1, 1});
   for (const std::string& file : state.running) {

@@ -14,7 +14,7 @@
 
 namespace rollrig::campaigns {
 
-/// What the items of a campaign are made from is not what it was: no item can be carried out.
+/// What the items of a campaign are made from has changed: no item can be carried out.
 class CampaignChanged : public InputError {
  public:
   using InputError::InputError;
@@ -84,7 +84,7 @@ struct OpenItems {
 };
 OpenItems find_open_items(const ItemList& list, const CampaignFolder& folder);
 
-/// The file of results of this process, with what it says to others of how many it has.
+/// The file of results of this process, and the file beside it that tells other processes how many items are done.
 class ResultsFile {
  public:
   /// Throws InputError as Store does.
@@ -96,7 +96,7 @@ class ResultsFile {
   /// What it has from an earlier session.
   void list_items(const std::function<void(std::size_t item, bool has_failed)>& take) const;
   void write(const Record& record);
-  /// As Store has it.
+  /// Takes the log into the file, which then stands alone. Throws InputError where that cannot be.
   void close();
 
  private:

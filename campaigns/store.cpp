@@ -36,9 +36,9 @@ auto with_file(const std::string& path, const char* busy, const Use& use) {
     std::string what = fmt::format("cannot use the file of results: {}", error.what());
     std::string allowed = "a file that rollrig campaign has written, in a folder that can be written to";
     if (code == SQLITE_BUSY) {
-      what = "another process writes this file of results";
-      allowed = busy;
-    } else if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) {
+      throw FileInUse({"another process writes this file of results", path, 0, "", "", busy, ""});
+    }
+    if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) {
       what = "this is no file of a campaign's results, or it is damaged";
       allowed = "a file that rollrig campaign has written; without it, its items are carried out again";
     } else if (code == SQLITE_FULL) {

@@ -8,7 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "include/rollrig/error.h"
+
 namespace rollrig::campaigns {
+
+/// Another process writes a file of results now.
+class FileInUse : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// An item that was carried out.
 struct Record {

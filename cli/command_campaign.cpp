@@ -2,6 +2,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -91,8 +93,10 @@ int new_diagnoses_command(const NewDiagnosesOptions& options) {
                       "a folder of folders that have a set.toml");
   }
   if (!options.quiet) warn_of_undescribed(options.sets);
-  define_diagnosis_campaign(input, options.folder);
-  if (!options.quiet) say_next(options.folder);
+  const std::vector<std::string> warnings = define_diagnosis_campaign(input, options.folder);
+  if (options.quiet) return kDone;
+  for (const std::string& warning : warnings) std::cerr << "warning: this set will fail: " << warning << '\n';
+  say_next(options.folder);
   return kDone;
 }
 
@@ -106,17 +110,23 @@ CampaignPart choose_part(const std::string& asked) {
 void start_over_mpi(const CampaignRunOptions& options) {
   if (!options.shard.empty() || options.threads > 0) {
     throw usage_error("with --mpi, the first process hands out the items, to one thread of each of the others",
-                      options.shard.empty() ? "--threads" : "--shard", options.shard, "--mpi alone");
+                      options.shard.empty() ? "--threads" : "--shard",
+                      options.shard.empty() ? std::to_string(options.threads) : options.shard, "--mpi alone");
   }
   const std::string program = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rollrig_mpi").string();
-  std::vector<std::string> words{program, options.folder};
+  std::vector<std::string> words{program};
   if (options.has_program_progress) words.emplace_back("--progress");
   if (options.output.quiet) words.emplace_back("--quiet");
   if (!options.output.json.empty()) words.insert(words.end(), {"--json", options.output.json});
+  words.insert(words.end(), {"--", options.folder});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   execv(program.c_str(), arguments.data());
+  if (errno != ENOENT) {
+    throw usage_error(fmt::format("cannot start {}: {}", program, std::strerror(errno)), "--mpi", "",
+                      "a program that may be started; or --shard");
+  }
   throw usage_error("this rollrig was built without MPI", "--mpi", "",
                     "--shard; or to install Open MPI (libopenmpi-dev, openmpi-bin) and to build rollrig anew");
 }

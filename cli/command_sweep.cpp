@@ -45,7 +45,7 @@ int sweep_command(const SweepOptions& options) {
   const std::size_t failed = result.count_failures();
   if (failed == 0) return kDone;
   std::cout << std::flush;
-  std::cerr << wrap(fmt::format("run failed: {} of {} points of the sweep; the others are as they should be", failed,
+  std::cerr << wrap(fmt::format("run failed: {} of {} points of the sweep; the other points are complete", failed,
                                 result.points.size()),
                     2)
                    .substr(2);

@@ -51,8 +51,8 @@ void sort_after_first(std::vector<Cause>& causes);
 /// Probability of "none", "unknown" or an effect; 0 where it was not in the comparison.
 double probability_of(const Findings& findings, const std::string& name);
 
-/// Throws InputError for the first effect of `without` or `only` that does not exist, and for a smallest effect that is
-/// no share.
+/// Throws InputError for the first effect of `without` or `only` that does not exist, and for a smallest effect
+/// beyond 0 to 100 percent.
 void require_valid_options(const DiagnosisOptions& options);
 
 /// The diagnosis of a measurement set of any kind, against either baseline.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "report/blocks.h"
@@ -53,24 +54,37 @@ Block make_factor_chart(const std::string& result, const FactorScatter& scatter)
                      Json::array({points.finish("items")}));
 }
 
-constexpr std::size_t kBins = 5;  // Assumed: of each factor of a map
+constexpr std::size_t kMostRanges = 5;  // Assumed: of each factor of a map
 
-/// The bin of each value, of bins that hold equally many: kBins where it is not finite.
-std::vector<std::size_t> sort_into_bins(const std::vector<double>& values, std::vector<double>& limits) {
+/// The values of a factor in a few ranges, and in which of them each item lies.
+struct Ranges {
+  std::vector<std::string> names;
+  std::vector<std::size_t> of_items;
+};
+
+/// Each value by itself where there are few, else ranges that hold equally many items.
+Ranges make_ranges(const std::vector<double>& values) {
   std::vector<double> sorted = values;
   std::sort(sorted.begin(), sorted.end());
-  limits.clear();
-  for (std::size_t bin = 0; bin <= kBins; ++bin) limits.push_back(sorted[bin * (sorted.size() - 1) / kBins]);
-  std::vector<std::size_t> bins;
-  for (const double value : values) {
-    const auto above = std::upper_bound(limits.begin() + 1, limits.end() - 1, value);
-    bins.push_back(static_cast<std::size_t>(above - limits.begin()) - 1);
+  std::vector<double> distinct;
+  std::unique_copy(sorted.begin(), sorted.end(), std::back_inserter(distinct));
+  Ranges ranges;
+  std::vector<double> starts;  // of all ranges but the first
+  if (distinct.size() <= kMostRanges) {
+    for (const double value : distinct) ranges.names.push_back(fmt::format("{:.4g}", value));
+    starts.assign(distinct.begin() + 1, distinct.end());
+  } else {
+    const auto limit = [&sorted](std::size_t i) { return sorted[i * (sorted.size() - 1) / kMostRanges]; };
+    for (std::size_t i = 0; i < kMostRanges; ++i) {
+      ranges.names.push_back(fmt::format("{:.4g} to {:.4g}", limit(i), limit(i + 1)));
+      if (i > 0) starts.push_back(limit(i));
+    }
   }
-  return bins;
-}
-
-std::string name_bin(const std::vector<double>& limits, std::size_t bin) {
-  return fmt::format("{:.4g} to {:.4g}", limits[bin], limits[bin + 1]);
+  for (const double value : values) {
+    const auto above = std::upper_bound(starts.begin(), starts.end(), value);
+    ranges.of_items.push_back(static_cast<std::size_t>(above - starts.begin()));
+  }
+  return ranges;
 }
 
 std::string with_unit(const std::string& key) {
@@ -78,62 +92,55 @@ std::string with_unit(const std::string& key) {
   return plain_name(last_part(key)) + (unit.empty() ? "" : " in " + unit);
 }
 
-/// The mean result over two factors, each in bins that hold equally many items.
+/// The mean result over two factors, each in a few ranges.
 Block make_map(const std::string& result, const FactorScatter& across, const FactorScatter& down) {
-  FactorScatter x{across.key, {}, {}};
+  std::vector<double> x_values;
   std::vector<double> y_values;
+  std::vector<double> results;
   for (std::size_t i = 0; i < across.results.size(); ++i) {
     if (!std::isfinite(across.results[i])) continue;
-    x.values.push_back(across.values[i]);
-    x.results.push_back(across.results[i]);
+    x_values.push_back(across.values[i]);
     y_values.push_back(down.values[i]);
+    results.push_back(across.results[i]);
   }
-  std::vector<double> x_limits;
-  std::vector<double> y_limits;
-  const std::vector<std::size_t> x_bins = sort_into_bins(x.values, x_limits);
-  const std::vector<std::size_t> y_bins = sort_into_bins(y_values, y_limits);
-  std::vector<std::vector<double>> sums(kBins, std::vector<double>(kBins));
-  std::vector<std::vector<std::size_t>> counts(kBins, std::vector<std::size_t>(kBins));
-  for (std::size_t i = 0; i < x.results.size(); ++i) {
-    sums[y_bins[i]][x_bins[i]] += x.results[i];
-    ++counts[y_bins[i]][x_bins[i]];
-  }
-  const double count = static_cast<double>(x.results.size());
-  const double mean = std::accumulate(x.results.begin(), x.results.end(), 0.0) / count;
-  double largest = 0.0;  // deviation of a cell, to which the strongest shade belongs
-  const auto mean_of = [&](std::size_t row, std::size_t column) {
-    return sums[row][column] / static_cast<double>(counts[row][column]);
+  const Ranges columns = make_ranges(x_values);
+  const Ranges rows = make_ranges(y_values);
+  struct Cell {
+    double sum = 0.0;
+    std::size_t count = 0;
+    double mean() const { return sum / static_cast<double>(count); }
   };
-  const auto visit = [&](const auto& take) {
-    for (std::size_t row = 0; row < kBins; ++row) {
-      for (std::size_t column = 0; column < kBins; ++column) {
-        if (counts[row][column] > 0) take(row, column);
-      }
+  std::vector<std::vector<Cell>> cells(rows.names.size(), std::vector<Cell>(columns.names.size()));
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    Cell& cell = cells[rows.of_items[i]][columns.of_items[i]];
+    cell.sum += results[i];
+    ++cell.count;
+  }
+  const double mean = std::accumulate(results.begin(), results.end(), 0.0) / static_cast<double>(results.size());
+  double largest = 0.0;  // deviation of a cell, which has the strongest shade
+  for (const std::vector<Cell>& row : cells) {
+    for (const Cell& cell : row) {
+      if (cell.count > 0) largest = std::max(largest, std::abs(cell.mean() - mean));
     }
-  };
-  visit(
-      [&](std::size_t row, std::size_t column) { largest = std::max(largest, std::abs(mean_of(row, column) - mean)); });
-  Block block{{"type", "map"},
-              {"caption", fmt::format("Mean of {} over the two factors that matter most", with_unit(result))},
-              {"heads", {with_unit(down.key), ""}},
-              {"columns", Json::array()},
-              {"rows", Json::array()},
-              {"legend", fmt::format("Columns: {}. Of each factor, every range holds equally many items. Shades: above "
-                                     "and below the mean of all items, {:.4g}.",
-                                     with_unit(across.key), mean)}};
-  for (std::size_t bin = 0; bin < kBins; ++bin) {
-    block["columns"].push_back(name_bin(x_limits, bin));
-    block["rows"].push_back({{"group", ""},
-                             {"label", name_bin(y_limits, bin)},
-                             {"cells", Json::array({nullptr, nullptr, nullptr, nullptr, nullptr})}});
   }
-  visit([&](std::size_t row, std::size_t column) {
-    const double deviation = mean_of(row, column) - mean;
-    block["rows"][row]["cells"][column] = {{"text", fmt::format("{:.4g}", mean_of(row, column))},
-                                           {"shade", largest > 0.0 ? std::lround(4.0 * deviation / largest) : 0},
-                                           {"marked", ""},
-                                           {"note", format_count(counts[row][column], "item")}};
-  });
+  const auto show = [&](const Cell& cell) -> Json {
+    if (cell.count == 0) return nullptr;
+    return {{"text", fmt::format("{:.4g}", cell.mean())},
+            {"shade", largest > 0.0 ? std::lround(4.0 * (cell.mean() - mean) / largest) : 0},
+            {"marked", ""},
+            {"note", format_count(cell.count, "item")}};
+  };
+  Block block{{"type", "map"},
+              {"caption", fmt::format("Mean of {} over {} and {}", with_unit(result), plain_name(last_part(across.key)),
+                                      plain_name(last_part(down.key)))},
+              {"heads", {with_unit(down.key), ""}},
+              {"columns", columns.names},
+              {"rows", Json::array()},
+              {"legend", fmt::format("Columns: {}. Shades: above and below the mean of all items, {:.4g}.",
+                                     with_unit(across.key), mean)}};
+  for (std::size_t row = 0; row < cells.size(); ++row) {
+    block["rows"].push_back({{"group", ""}, {"label", rows.names[row]}, {"cells", make_list(cells[row], show)}});
+  }
   return block;
 }
 

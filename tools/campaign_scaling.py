@@ -3,7 +3,7 @@
 
 Measured on this machine are the time of one item, of the start of a process, and of the merge of a record and of a
 file. The simulation then carries out the campaign with fixed parts (--shard) and with items that are handed out (--mpi),
-and says which part of the time is lost to what.
+and says to what most time is lost. The process that hands out needs no core of its own.
 
   tools/campaign_scaling.py PROGRAM [--items 100000] [--seed 1]
 """
@@ -17,7 +17,7 @@ import time
 
 # Assumed: what the process that hands out items needs for a question, over Ethernet (within a machine it is less).
 QUESTION_S = 5e-5
-# Half of the pause of that process where nobody asks (campaigns/mpi/hand_out.cpp).
+# Assumed: a question waits for half of the pause of that process (campaigns/mpi/hand_out.cpp).
 PAUSE_S = 5e-4
 # Assumed: standard deviation of the time of an item over its mean, as for draws of the parameters of one test.
 SPREAD = 0.2
@@ -25,24 +25,37 @@ WORK = {
     "ISO 28580, quasi-static": ["iso_28580", "--tire", "a50", "--fidelity", "quasi_static", "--draw-sd", "tire"],
     "multi-cycle test, multibody": ["sae_j1634", "--tire", "a50", "--draw-sd", "tire"],
 }
+CHEAP = "ISO 28580, quasi-static"
 MEASURED_ITEMS = {"ISO 28580, quasi-static": 2000, "multi-cycle test, multibody": 6}
 
 
+FILES = 20
+
+
 def time_command(*words):
+    """Seconds. Status 3, of items that fail, is as good as 0."""
     start = time.perf_counter()
-    subprocess.run(words, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    status = subprocess.run(words, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    if status.returncode not in (0, 3):
+        raise SystemExit(status.stderr.decode())
     return time.perf_counter() - start
 
 
 def measure(program, run, items, folder):
     """Seconds of an item, of a start, and of the merge of a record and of a file."""
+    many = f"{folder}/files"
+    subprocess.run([program, "campaign", "new", many, *WORK[CHEAP], "--points", str(FILES), "--quiet"], check=True)
+    for part in range(FILES):
+        time_command(program, "campaign", "run", many, "--shard", f"{part + 1}/{FILES}")
+    per_file = (time_command(program, "campaign", "merge", many) - time_command(program, "campaign", "status", many)) / FILES
     of = f"{folder}/measured"
     subprocess.run([program, "campaign", "new", of, *run, "--points", str(items), "--quiet"], check=True)
     whole = time_command(program, "campaign", "run", of, "--threads", "1")
     start = time_command(program, "campaign", "run", of, "--threads", "1")
     merge = time_command(program, "campaign", "merge", of)
     status = time_command(program, "campaign", "status", of)
-    return {"item": (whole - start) / items, "start": start, "record": max(merge - status, 0.0) / items}
+    record = max(merge - status, 0.0) / items
+    return {"item": (whole - start) / items, "start": start, "record": record, "file": per_file}
 
 
 def draw_times(count, mean, seed):
@@ -87,8 +100,8 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             cost = measure(options.program, run, MEASURED_ITEMS[name], folder)
         times = draw_times(options.items, cost["item"], options.seed)
-        merge = options.items * cost["record"]
         for cores in (1, 10, 100, 1000):
+            merge = options.items * cost["record"] + cores * cost["file"]
             ideal = sum(times) / cores
             parts = cost["start"] + simulate_parts(times, cores)
             queue = cost["start"] + simulate_queue(times, cores)
@@ -97,7 +110,7 @@ def main():
             shown = [f"{seconds:.4g} s" for seconds in (ideal, parts, queue, merge)]
             print(f"| {name} | {cores} | {' | '.join(shown)} | {100.0 * ideal / (queue + merge):.0f} % | {worst} |")
         print(f"# {name}: item {1e3 * cost['item']:.3g} ms, start {1e3 * cost['start']:.3g} ms, "
-              f"merge of a record {1e6 * cost['record']:.3g} us")
+              f"merge of a record {1e6 * cost['record']:.3g} us, of a file {1e3 * cost['file']:.3g} ms")
 
 
 if __name__ == "__main__":

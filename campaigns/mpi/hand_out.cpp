@@ -16,7 +16,7 @@
 namespace rollrig::campaigns {
 
 std::size_t calc_chunk(std::size_t items_left, std::size_t workers) {
-  constexpr std::size_t kMost = 64;  // Assumed: of items of a millisecond, more than the pause below takes
+  constexpr std::size_t kMost = 64;  // Assumed: 64 items of 1 ms each take longer than the pause below
   return std::clamp<std::size_t>(items_left / (4 * workers), 1, kMost);
 }
 

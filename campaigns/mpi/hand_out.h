@@ -13,9 +13,10 @@ namespace rollrig::campaigns {
 /// time. The first one sleeps between two questions, so that it needs no core.
 ///
 /// To be called by all processes. `advance` is called in the first one, with the fraction of these items that is done.
-/// What is returned counts all items, in the first process; the others return nothing of use. A process that fails
-/// ends the others, since mpirun does so; what was done stays.
-/// Source  guided self-scheduling: Polychronopoulos and Kuck, IEEE Trans. Comput. C-36 (1987) 1425
+/// What is returned counts all items, in the first process; the others return nothing of use. If a process fails, the
+/// program ends the others by end_other_processes(); what was done stays.
+/// Source  after the guided self-scheduling of Polychronopoulos and Kuck, IEEE Trans. Comput. C-36 (1987) 1425; Assumed:
+///         a quarter of their share at once
 /// Errors  InputError: fewer than two processes; built without MPI; another process writes a file of results; as
 ///         carry_out_items(). Interrupted
 Tally hand_out_items(const ItemList& list, const CampaignFolder& folder, const Ranks& ranks,

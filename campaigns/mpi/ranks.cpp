@@ -46,7 +46,7 @@ Ranks::Ranks() : exceptions_(std::uncaught_exceptions()) {
 
 Ranks::~Ranks() {
   if (!started_) return;
-  // After an exception the others may wait for this process: they are ended instead.
+  // After an exception the others may wait for this process: end_other_processes() is for that.
   if (std::uncaught_exceptions() > exceptions_) return;
   MPI_Finalize();
 }
@@ -58,10 +58,18 @@ std::vector<std::size_t> Ranks::sum(std::vector<std::size_t> numbers) const {
   MPI_Allreduce(own.data(), all.data(), static_cast<int>(own.size()), MPI_UNSIGNED_LONG_LONG, MPI_SUM, MPI_COMM_WORLD);
   return {all.begin(), all.end()};
 }
+void end_other_processes(int status) {
+  int is_started = 0;
+  int has_ended = 0;
+  MPI_Initialized(&is_started);
+  MPI_Finalized(&has_ended);
+  if (is_started != 0 && has_ended == 0) MPI_Abort(MPI_COMM_WORLD, status);
+}
 #else
 Ranks::Ranks() = default;
 Ranks::~Ranks() = default;
 std::vector<std::size_t> Ranks::sum(std::vector<std::size_t> numbers) const { return numbers; }
+void end_other_processes(int) {}
 #endif
 
 }  // namespace rollrig::campaigns

@@ -20,6 +20,8 @@ class Ranks {
   /// Threads for this process where nothing else is said: the cores that it may use, shared with its like on the
   /// same machine.
   int threads() const { return threads_; }
+  /// Leaves the others, without waiting for them at the end.
+  void abandon() { started_ = false; }
   /// Sums of each number over all processes; waits for them.
   std::vector<std::size_t> sum(std::vector<std::size_t> numbers) const;
 
@@ -30,5 +32,9 @@ class Ranks {
   bool started_ = false;
   int exceptions_ = 0;
 };
+
+/// After a failure of this process, ends the others, which may wait for it. To be called at the end of a program, once
+/// the failure is told. Does nothing where MPI was not started, or has ended.
+void end_other_processes(int status);
 
 }  // namespace rollrig::campaigns

@@ -1,6 +1,7 @@
 /// rollrig_mpi: `rollrig campaign run FOLDER --mpi`, a program of its own, so that rollrig does not link MPI.
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "api/open_campaign.h"
 #include "campaigns/mpi/hand_out.h"
@@ -18,24 +19,31 @@ struct MpiOptions {
   OutputOptions output;
 };
 
-int run_over_mpi(const MpiOptions& options) {
-  const campaigns::Ranks ranks;
-  const OpenCampaign campaign = open_campaign(options.folder);
+/// The items that are done, in the first process, which alone says so.
+campaigns::Tally hand_out(const MpiOptions& options, const OpenCampaign& campaign, const campaigns::Ranks& ranks) {
   const std::unique_ptr<CampaignItems> items = campaign.make_watched_items();
-  if (!ranks.is_first()) {
-    campaigns::hand_out_items(*items, campaign.folder, ranks);
-    return kDone;  // the first process says how it went
-  }
-  Output output(options.output);
+  ProgressLine progress("campaign", options.output.quiet || !ranks.is_first(),
+                        options.has_program_progress ? ProgressReader::kProgram : ProgressReader::kPerson);
+  const auto advance = [&progress](double done) { progress.update(done); };
+  return campaigns::hand_out_items(*items, campaign.folder, ranks, advance);
+}
+
+int run_over_mpi(const MpiOptions& options) {
+  campaigns::Ranks ranks;
+  const OpenCampaign campaign = open_campaign(options.folder);
+  std::optional<Output> output;
+  if (ranks.is_first()) output.emplace(options.output);
   campaigns::Tally tally;
-  {  // its line is gone before the results are printed
-    ProgressLine progress("campaign", options.output.quiet,
-                          options.has_program_progress ? ProgressReader::kProgram : ProgressReader::kPerson);
-    const auto advance = [&progress](double done) { progress.update(done); };
-    tally = campaigns::hand_out_items(*items, campaign.folder, ranks, advance);
+  try {
+    tally = hand_out(options, campaign, ranks);
+  } catch (const Interrupted&) {
+    ranks.abandon();
+    if (ranks.is_first()) std::cerr << "stopped: what was done is kept; the same command goes on\n";
+    return kInterrupted;
   }
+  if (!ranks.is_first()) return kDone;
   const CampaignState state = make_state(tally, campaign.folder.path);
-  output.show(state);
+  output->show(state);
   return state.failed == 0 ? kDone : kRunFailed;
 }
 
@@ -55,5 +63,8 @@ int make_and_run(int argc, char** argv) {
 }  // namespace rollrig::cli
 
 int main(int argc, char** argv) {
-  return rollrig::cli::run_program(argc, argv, [argc, argv] { return rollrig::cli::make_and_run(argc, argv); });
+  const int status =
+      rollrig::cli::run_program(argc, argv, [argc, argv] { return rollrig::cli::make_and_run(argc, argv); });
+  if (status != rollrig::cli::kDone) rollrig::campaigns::end_other_processes(status);
+  return status;
 }

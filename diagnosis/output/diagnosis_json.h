@@ -16,9 +16,9 @@ Verdict read_verdict(const std::string& word);
 /// Checked tests/diagnosis/diagnosis_json_test.cpp
 Json make_diagnosis_json(const Findings& findings);
 
-/// Of such a document the set, verdict, probabilities, causes without companions and partners, trace, the gap and what
-/// is taken from it, where it lies, next tests, warnings. A number that is null becomes NaN. Throws Json::exception or
-/// InputError where it is no such document.
+/// Reads from such a document: set, verdict, probability, nothing_detectable, causes (without companions and partners),
+/// trace, of the gap as_calibrated, recalibrated and shrink_percent, where, next_tests, warnings. A number that is null
+/// becomes NaN. Throws Json::exception or InputError where it is no such document.
 Findings read_diagnosis_json(const Json& json);
 
 }  // namespace rollrig::diagnosis

@@ -130,10 +130,15 @@ Json diagnose_member(const std::string& folder, const DiagnosisOptions& options,
 void add_member(const std::string& folder, const Json& result, Fleet& fleet) {
   FleetMember member;
   member.folder = folder;
-  member.machine = result.at("machine").get<std::string>();
-  member.tire = result.at("tire").get<std::string>();
-  member.findings = read_diagnosis_json(result.at("diagnosis"));
-  member.findings->doubt = result.at("doubt").get<std::string>();
+  try {
+    member.machine = result.at("machine").get<std::string>();
+    member.tire = result.at("tire").get<std::string>();
+    member.findings = read_diagnosis_json(result.at("diagnosis"));
+    member.findings->doubt = result.at("doubt").get<std::string>();
+  } catch (const Json::exception& error) {
+    throw InputError({fmt::format("the stored diagnosis of a set is damaged: {}", error.what()), folder, 0, "", "",
+                      "what rollrig campaign run has stored", ""});
+  }
   fleet.members.push_back(std::move(member));
   fleet.documents.push_back(result.at("diagnosis"));
 }

@@ -46,7 +46,7 @@ std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members
 struct Fleet {
   std::vector<FleetMember> members;
   std::vector<Recurrence> recurrences;
-  std::vector<Json> documents = {};  // of a campaign, the diagnosis of each member as it was stored
+  std::vector<Json> documents = {};  // as many as members, their diagnoses as a campaign has stored them; else none
 };
 
 /// Diagnoses every set of a folder, several at a time. A set that cannot be read and a diagnosis that fails are noted,
@@ -59,7 +59,7 @@ Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOpt
 /// Errors  InputError: the set cannot be read or diagnosed. RunFailure
 Json diagnose_member(const std::string& folder, const DiagnosisOptions& options, BadRows bad_rows);
 
-/// Adds the set to which such a result belongs. Throws Json::exception or InputError where it is none.
+/// Adds the set to which such a result belongs. Throws InputError where it is none.
 void add_member(const std::string& folder, const Json& result, Fleet& fleet);
 /// Adds a set that could not be diagnosed.
 void add_failed_member(const std::string& folder, const std::string& failure, Fleet& fleet);

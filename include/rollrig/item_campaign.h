@@ -55,7 +55,7 @@ CampaignPart read_campaign_part(const std::string& text);
 /// What Slurm, Grid Engine, mpirun or srun says in the environment; none where the process was started by itself.
 /// Throws InputError.
 std::optional<CampaignPart> find_campaign_part();
-/// What mpirun or srun says alone: not a job array, whose tasks may differ in what they are asked to do.
+/// As find_campaign_part(), but without job arrays, whose tasks may do different things.
 std::optional<CampaignPart> find_launched_part();
 
 /// How far a campaign, or a part of it, is.
@@ -68,9 +68,10 @@ struct CampaignState : Report {
 /// Makes the folder of a campaign with its campaign.json. Throws InputError: whatever is wrong with the runs or the
 /// design, and where the folder holds files.
 void define_run_campaign(const RunCampaignInput& input, const std::string& folder);
-/// The same for diagnoses. A set that cannot be read becomes an item that fails. Throws InputError: no set can be read,
-/// an unknown effect, and where the folder holds files.
-void define_diagnosis_campaign(const DiagnosisCampaignInput& input, const std::string& folder);
+/// The same for diagnoses. A set that cannot be read becomes an item that fails; what is wrong with it is returned.
+/// Throws InputError: no set can be read, an unknown effect, a smallest effect beyond 0 to 100 percent, and where the
+/// folder holds files.
+std::vector<std::string> define_diagnosis_campaign(const DiagnosisCampaignInput& input, const std::string& folder);
 
 /// A campaign in its folder.
 class ItemCampaign {
@@ -84,7 +85,7 @@ class ItemCampaign {
   CampaignState carry_out(const CampaignPart& part, int threads = 0, const Progress& progress = {}) const;
   /// What all processes have done up to now.
   CampaignState read_state() const;
-  /// Puts all results into one file, and takes the others away. Throws InputError where a process still works; no
+  /// Puts all results into one file, and removes the others. Throws InputError where a process still works; no
   /// result is lost then.
   CampaignState merge() const;
 
@@ -95,7 +96,8 @@ class ItemCampaign {
   /// How much of a result's spread comes from which factor, for the designs sobol_indices and morris.
   /// Throws InputError: another design, an unknown result, too few items.
   Report calc_sensitivity(const std::string& result) const;
-  /// Of diagnoses that are done: the report of diagnose_fleet(). Throws InputError where none is, or for runs.
+  /// Of diagnoses that are done: a report as that of diagnose_fleet(). Folders are absolute, and a set that failed has
+  /// neither machine nor tire. Throws InputError where none is done, where a process writes results, and for runs.
   Report summarize_diagnoses() const;
   /// A job for Slurm's sbatch: an array of `tasks` tasks, each of which carries out a part. `program` is how the tasks
   /// call rollrig.

@@ -24,7 +24,7 @@ SweepAxis read_sweep_axis(const std::string& text);
 
 struct SweepInput {
   RunInput run;
-  std::vector<SweepAxis> axes;     // at most kMostSweepPoints values with each other
+  std::vector<SweepAxis> axes;     // at most kMostSweepPoints combinations
   std::vector<std::string> shown;  // results in the report's table and charts; none: those that change
   int threads = 0;                 // 0: as many as the machine has
   std::string kept_in = {};        // folder in which points that are done are kept until the sweep is complete; empty:
@@ -48,8 +48,8 @@ class Sweep {
  public:
   /// Throws InputError, also for a result to be shown that the scenario does not have.
   explicit Sweep(const SweepInput& input);
-  /// Runs all points, several at a time; of a sweep that was interrupted, those that SweepInput::kept_in has not. A
-  /// point that fails is named in the result. Throws InputError for a result to
+  /// Runs all points, several at a time. If SweepInput::kept_in has points of an interrupted sweep, it runs the others;
+  /// one call at a time, and the folder is removed if all points fail. A point that fails is named in the result. Throws InputError for a result to
   /// be shown that no point has, RunFailure where all points fail, Interrupted.
   SweepResult carry_out(const Progress& progress = {}) const;
   /// Removes the folder of SweepInput::kept_in, once the result is written.

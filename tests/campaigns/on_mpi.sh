@@ -15,11 +15,12 @@ runs="iso_28580 --tire a50 --vary ambient_degC=20:30:0.05"
 "$program" campaign export alone --csv alone.csv --quiet
 as_four="mpirun --allow-run-as-root --oversubscribe -n 4"
 
-# kill_and_resume NAME FILE OPTIONS: FILE is there while the process to be killed works
+# kill_and_resume NAME FILE WHICH OPTIONS: FILE is there while the processes work; WHICH of them is killed, from 1
 kill_and_resume() {
   name=$1
   file=$2
-  shift 2
+  which=$3
+  shift 3
   # shellcheck disable=SC2086
   "$program" campaign new "$name" $runs --quiet
   # shellcheck disable=SC2086
@@ -30,7 +31,7 @@ kill_and_resume() {
     sleep 0.05
   done
   [ "$(pgrep -P "$launcher" | wc -l)" = 4 ] || { cat mpirun.log; echo "mpirun has not four processes"; exit 1; }
-  kill -9 "$(pgrep -P "$launcher" | tail -1)"
+  kill -9 "$(pgrep -P "$launcher" | sed -n "${which}p")"
   wait "$launcher" && { echo "mpirun did not notice that a process was killed"; exit 1; }
   "$program" campaign status "$name"
   "$program" campaign status "$name" --json - | grep -q '"done": 201' && { echo "all was done before the kill"; exit 1; }
@@ -39,9 +40,18 @@ kill_and_resume() {
   "$program" campaign export "$name" --csv "$name.csv" --quiet
   cmp alone.csv "$name.csv"
 }
-kill_and_resume four results_0002_of_0004.sqlite --threads 1
+kill_and_resume four results_0002_of_0004.sqlite 4 --threads 1
 if [ -x "$(dirname "$program")/rollrig_mpi" ]; then
-  kill_and_resume queue results_mpi_0002_of_0003.sqlite --mpi
-  [ "$(ls queue/results_mpi_*.sqlite | wc -l)" = 3 ] || { echo "not all processes had items"; exit 1; }
+  kill_and_resume worker results_mpi_0002_of_0003.sqlite 3 --mpi
+  set -- worker/results_mpi_*.sqlite
+  [ $# = 3 ] || { echo "not all processes had items"; exit 1; }
+  kill_and_resume first results_mpi_0002_of_0003.sqlite 1 --mpi
+  $as_four "$program" campaign run first --mpi --quiet --threads 2 && { echo "--threads was not refused"; exit 1; }
+  "$program" campaign new failing iso_28580 --tire a50 --fidelity quasi_static --draw pressure_kPa=uniform:-100:400 \
+    --points 12 --seed 2 --quiet
+  status=0
+  $as_four "$program" campaign run failing --mpi --json state.json || status=$?
+  [ "$status" = 3 ] || { echo "failed items: status $status"; exit 1; }
+  grep -q '"done": 12' state.json
 fi
 echo "the same results in 4 processes as in one: $(($(wc -l <alone.csv) - 1)) items"

@@ -199,14 +199,17 @@ TEST_CASE("a sweep that is interrupted goes on where it stopped", "[fast]") {
   const std::string sweep =
       "sweep iso_28580 --tire a50 --fidelity quasi_static --vary ambient_degC=20:30:0.02 --threads 1 ";
   REQUIRE(run_program(sweep + "--out whole --quiet", folder.path()).status == 0);
-  const auto stopped =
-      run_program(sweep + "--out out/", folder.path(), "timeout --preserve-status -s INT 0.6");  // of 501 points
+  write_file(folder.file("stop.sh"),  // as soon as the first of the 501 points are kept
+             std::string(ROLLRIG_PROGRAM " ") + sweep +
+                 "--out out/ & \n"
+                 "until [ -s out.unfinished/*.progress ]; do sleep 0.02; done; kill -TERM $!; wait $!\n");
+  const auto stopped = run_other("sh", "stop.sh", folder.path());
   CHECK(stopped.status == 130);
   CHECK_THAT(flatten(stopped.err), Catch::Contains("what was done is kept in out.unfinished"));
   CHECK(!fs::exists(folder.file("out/sweep.csv")));
   const auto other = run_program(sweep + "--set load_N=5000 --out out", folder.path());
   CHECK(other.status == 2);
-  CHECK_THAT(flatten(other.err), Catch::Contains("holds what is done of another sweep"));
+  CHECK_THAT(flatten(other.err), Catch::Contains("holds the points of another, unfinished sweep"));
   REQUIRE(run_program(sweep + "--out out", folder.path()).status == 0);
   for (const char* file : {"sweep.csv", "sweep.json", "manifests.json"}) {
     CHECK(read_file(folder.file(std::string("out/") + file)) == read_file(folder.file(std::string("whole/") + file)));
@@ -220,10 +223,11 @@ TEST_CASE("a sweep in several processes of one launcher is refused", "[fast]") {
   const auto launched = run_program(sweep, folder.path(), "env OMPI_COMM_WORLD_RANK=1 OMPI_COMM_WORLD_SIZE=4");
   CHECK(launched.status == 2);
   CHECK_THAT(flatten(launched.err), Catch::Contains("4 processes were started") && Catch::Contains("rollrig campaign"));
-  const auto task =
-      run_program(sweep, folder.path(), "env SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=3");
+  const auto task = run_program(sweep, folder.path(),
+                                "env SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=7 "
+                                "SLURM_ARRAY_TASK_COUNT=3");
   CHECK(task.status == 0);
-  CHECK_THAT(flatten(task.err), Catch::Contains("warning: this is task 2 of 3 of a job array"));
+  CHECK_THAT(flatten(task.err), Catch::Contains("warning: this is a task of a job array"));
 }
 
 namespace {

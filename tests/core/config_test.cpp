@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "sim/core/schema.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace rollrig;
 
@@ -18,6 +19,19 @@ a = 1
 [[item]]
 a = 2
 )";
+}
+
+TEST_CASE("a file that has changed is read anew", "[fast]") {
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("a.toml");
+  for (const double value : {1.0, 2.0, 1.0}) {
+    tests::write_file(path, "value = " + std::to_string(value) + "\n");
+    const ConfigTable table = read_config(path);
+    CHECK(std::get<double>(table.find("value")->data) == value);
+    CHECK(table.find("value")->origin.file == path);
+  }
+  tests::write_file(folder.file("b.toml"), "value = 1.000000\n");  // the same content at another place
+  CHECK(read_config(folder.file("b.toml")).find("value")->origin.file == folder.file("b.toml"));
 }
 
 TEST_CASE("a config remembers the line of each value", "[fast]") {

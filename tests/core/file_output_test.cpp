@@ -93,6 +93,25 @@ TEST_CASE("what is staged and not committed leaves nothing, parents included", "
   CHECK(base.entry_count() == 0);
 }
 
+TEST_CASE("a file that is written in pieces appears whole, or not at all", "[fast]") {
+  const TemporaryFolder base;
+  tests::write_file(base.file("a"), "before");
+  {
+    StagedOutput file(base.file("a"), "1");
+    file.append("2");
+  }
+  CHECK(read_text_file(base.file("a")) == "before");
+  CHECK(base.entry_count() == 1);
+  StagedOutput file(base.file("a"), "1");
+  file.append("2");
+  StagedOutput moved(std::move(file));
+  moved.append("3");
+  CHECK(read_text_file(base.file("a")) == "before");
+  moved.commit();
+  CHECK(read_text_file(base.file("a")) == "123");
+  CHECK(base.entry_count() == 1);
+}
+
 TEST_CASE("a file that came meanwhile is kept where that is asked for", "[fast]") {
   const TemporaryFolder base;
   StagedOutput file(base.file("a"), "late", StagedOutput::Existing::kKeep);

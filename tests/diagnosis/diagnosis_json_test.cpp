@@ -25,6 +25,29 @@ bool holds(const Json& object, const std::set<std::string>& wanted) {
 
 }  // namespace
 
+TEST_CASE("a diagnosis that is read from its document has what it had", "[fast]") {
+  const Findings before = tests::make_explained();
+  const Json document = diagnosis::make_diagnosis_json(before);
+  const Json again = diagnosis::make_diagnosis_json(diagnosis::read_diagnosis_json(document));
+  for (const char* key : {"set", "verdict", "probability", "nothing_detectable", "where", "warnings", "trace"}) {
+    INFO(key);
+    CHECK(again[key] == document[key]);
+  }
+  for (const char* key : {"as_calibrated", "recalibrated", "shrink_percent"})
+    CHECK(again["gap"][key] == document["gap"][key]);
+  for (const char* key : {"effects", "probability", "indistinguishable_from", "parameters", "acts", "alone", "complete",
+                          "adequate", "objections"}) {
+    INFO(key);
+    REQUIRE(again["causes"].size() == document["causes"].size());
+    CHECK(again["causes"][0][key] == document["causes"][0][key]);
+  }
+  Json damaged = document;
+  damaged["verdict"] = "perhaps";
+  CHECK_THROWS_AS(diagnosis::read_diagnosis_json(damaged), InputError);
+  damaged.erase("verdict");
+  CHECK_THROWS_AS(diagnosis::read_diagnosis_json(damaged), Json::exception);
+}
+
 TEST_CASE("every key of the contract is there, with its meaning", "[fast]") {
   const Json json = diagnosis::make_diagnosis_json(tests::make_explained());
   CHECK(holds(json, {"format", "set", "verdict", "probability", "causes", "gap", "where", "balance", "next_test",

@@ -31,18 +31,14 @@ struct RunOptions {
   std::vector<std::string> methods;  // of baselines
 };
 
-/// Which cases this process answers: those of its rank under mpirun, else those of --shard, or of what a batch system
-/// says.
+/// Which cases this process answers: those of --shard, else what mpirun, srun or a batch system says, else all.
 campaigns::Part choose_part(const campaigns::Ranks& ranks, const std::string& shard) {
-  if (ranks.count() == 1) {
-    if (!shard.empty()) return campaigns::read_part(shard);
+  if (shard.empty()) {
     return campaigns::find_part([](const char* name) -> const char* { return std::getenv(name); })
-        .value_or(campaigns::Part{});
+        .value_or(campaigns::Part{ranks.rank() + 1, ranks.count()});
   }
-  if (!shard.empty()) {
-    throw cli::usage_error("mpirun has divided the cases already", "--shard", shard, "mpirun or --shard");
-  }
-  return {ranks.rank() + 1, ranks.count()};
+  if (ranks.count() == 1) return campaigns::read_part(shard);
+  throw cli::usage_error("mpirun has divided the cases already", "--shard", shard, "mpirun or --shard");
 }
 
 /// Answers what is to be answered by all processes together, and says how it went.
@@ -125,7 +121,7 @@ void add_common(CLI::App& command, RunOptions& options) {
   add_set_to(command, options.set);
   cli::add_threads(command, options.threads, "Cases at the same time [as many as the machine has cores]");
   command.add_option("--shard", options.shard,
-                     "I/N: every N-th case, from the I-th [what Slurm or Grid Engine says, else all]");
+                     "I/N: every N-th case, from the I-th [what Slurm, Grid Engine, srun or mpirun says, else all]");
   command.add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 

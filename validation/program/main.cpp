@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "campaigns/mpi/ranks.h"
 #include "cli/help_formatter.h"
 #include "validation/program/commands.h"
 
@@ -37,5 +38,8 @@ int make_and_run(int argc, char** argv) {
 }  // namespace rollrig::validation
 
 int main(int argc, char** argv) {
-  return rollrig::cli::run_program(argc, argv, [argc, argv] { return rollrig::validation::make_and_run(argc, argv); });
+  const int status =
+      rollrig::cli::run_program(argc, argv, [argc, argv] { return rollrig::validation::make_and_run(argc, argv); });
+  if (status != rollrig::cli::kDone) rollrig::campaigns::end_other_processes(status);
+  return status;
 }
