@@ -340,7 +340,10 @@ CampaignDefinition make_definition(const DiagnosisCampaignInput& input) {
   CampaignDefinition definition;
   definition.version = library_version();
   definition.diagnosis = input;
-  for (std::string& set : definition.diagnosis->sets) set = fs::absolute(set).lexically_normal().string();
+  for (std::string& set : definition.diagnosis->sets) {
+    set = fs::absolute(set).lexically_normal().string();
+    require_file((fs::path(set) / "set.toml").string());  // also that its name is UTF-8 text, as campaign.json needs it
+  }
   return definition;
 }
 

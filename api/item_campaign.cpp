@@ -27,6 +27,7 @@
 #include "sim/core/parse_json.h"
 #include "sim/core/shell_word.h"
 #include "sim/core/text.h"
+#include "sim/core/visible.h"
 
 namespace fs = std::filesystem;
 
@@ -126,7 +127,9 @@ CampaignState ItemCampaign::merge() const {
   fs::rename(partial, merged);
   const auto has = [&is_merged](std::size_t item) { return item < is_merged.size() && is_merged[item]; };
   for (const std::string& file : files) {
-    if (file != merged) campaigns::remove_if_contained(file, data_->folder.definition, has);
+    if (file == merged) continue;
+    campaigns::remove_if_contained(file, data_->folder.definition, has);
+    if (!is_there(file)) campaigns::remove_progress(file);
   }
   return read_state();
 }
@@ -219,7 +222,7 @@ Report ItemCampaign::calc_sensitivity(const std::string& result) const {
       is_sobol ? describe_indices(result, design, campaigns::calc_sobol_indices(values, factors, design.seed))
                : describe_effects(result, design, campaigns::calc_morris_measures(values, factors, design.seed));
   Report report;
-  report.json = to_text(found.json) + "\n";
+  report.json = to_text(found.json);
   report.text = format_table(found.table) + wrap(found.explanation, 0);
   report.make_page = [data = data_, found, table, column] {
     std::vector<report::FactorScatter> scatters;
@@ -274,8 +277,8 @@ std::string ItemCampaign::make_slurm_job(std::size_t tasks, const std::string& p
       "#SBATCH --cpus-per-task=1\n"
       "#SBATCH --requeue\n"
       "exec {} campaign run {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads \"$SLURM_CPUS_PER_TASK\" --quiet\n",
-      data_->items->count(), data_->folder.path, tasks, tasks, quote_for_shell(program), quote_for_shell(folder),
-      tasks);
+      data_->items->count(), show_on_one_line(data_->folder.path), tasks, tasks, quote_for_shell(program),
+      quote_for_shell(folder), tasks);
 }
 
 }  // namespace rollrig

@@ -56,8 +56,7 @@ CampaignState make_state(const campaigns::Tally& tally, const std::string& of,
                             {"items", tally.items},
                             {"done", tally.done},
                             {"failed", tally.failed},
-                            {"processes", running.size()}}) +
-               "\n";
+                            {"processes", running.size()}});
   state.text = wrap(
       fmt::format("{}: {} of {} done{}{}", of, tally.done, format_count(tally.items, "item"),
                   tally.failed > 0 ? fmt::format(", {} of them failed", tally.failed) : "",

@@ -59,7 +59,13 @@ CampaignItems::Check SetItems::check() const {
   }
   // A diagnosis may ask whether another tire of the assets was measured (diagnosis/checks/tire_checks.cpp).
   for (const std::string& name : list_assets("tires")) read_text_file(find_asset("tires", name));
-  found.files = hash_files(recorder.list_files());
+  for (const std::string& file : recorder.list_files()) {
+    try {
+      const std::vector<CampaignFile> hashed = hash_files({file});
+      found.files.push_back(hashed.front());
+    } catch (const FileProblem&) {  // of a set that fails, such as an empty file
+    }
+  }
   return found;
 }
 

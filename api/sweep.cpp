@@ -229,7 +229,8 @@ constexpr const char* kDefinitionFile = "sweep_definition.json";
 /// Makes the folder in which points are kept. Throws InputError where it holds those of another sweep.
 void open_kept(const campaigns::CampaignFolder& folder) {
   const std::string file = (fs::path(folder.path) / kDefinitionFile).string();
-  if (!is_there(folder.path)) {
+  std::error_code none;
+  if (!is_there(folder.path) || fs::is_empty(folder.path, none)) {
     write_folder(folder.path, {{kDefinitionFile, folder.definition}});
   } else if (!is_there(file) || read_text_file(file) != folder.definition) {
     throw InputError({fmt::format("'{}' holds the points of another, unfinished sweep", folder.path), "command line", 0,
@@ -260,8 +261,14 @@ std::vector<campaigns::Record> carry_out_points(const SweepItems& items, std::ui
 }  // namespace
 
 void Sweep::remove_kept() const {
-  const std::string& folder = data_->items.input().kept_in;
-  if (!folder.empty() && is_there((fs::path(folder) / kDefinitionFile).string())) fs::remove_all(folder);
+  const fs::path folder = data_->items.input().kept_in;
+  if (folder.empty()) return;
+  std::error_code ignored;  // what cannot be removed does no harm
+  for (const std::string& results : campaigns::CampaignFolder{folder.string(), "", 0}.list_files()) {
+    fs::remove(results, ignored);
+  }
+  fs::remove(folder / kDefinitionFile, ignored);
+  fs::remove(folder, ignored);  // unless it holds files of somebody else
 }
 
 SweepResult Sweep::carry_out(const Progress& progress) const {

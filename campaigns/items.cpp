@@ -242,6 +242,11 @@ Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const 
   return tally;
 }
 
+void remove_progress(const std::string& results) {
+  std::error_code ignored;
+  fs::remove(progress_file_of(results), ignored);
+}
+
 FolderState read_state(const CampaignFolder& folder, std::size_t items) {
   FolderState state;
   DoneItems done(items);

@@ -114,6 +114,9 @@ class ResultsFile {
 Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Part& part, int threads,
                       const std::function<void(double)>& advance = {});
 
+/// Removes what a process that was killed has said of a file of results.
+void remove_progress(const std::string& results);
+
 /// What is done of all items. Files that a process writes now are counted by what it says in `<file>.progress`.
 struct FolderState {
   Tally tally;

@@ -130,6 +130,10 @@ MorrisMeasures calc_morris_measures(const ItemResults& results, std::size_t fact
     effects.insert(effects.end(), own.begin(), own.end());
   }
   const std::vector<Row> rows = make_rows(effects, factors, 4, "trajectories");
+  const auto is_zero = [](const Row& row) {
+    return std::all_of(row.begin(), row.end(), [](double effect) { return effect == 0.0; });
+  };
+  if (std::all_of(rows.begin(), rows.end(), is_zero)) throw no_spread("the result is the same in all items");
   const Estimate mean_size = [factors](const std::vector<const Row*>& chosen) {
     std::vector<double> sizes(factors);
     for (const Row* row : chosen) {

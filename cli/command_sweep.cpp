@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <iostream>
 
 #include "cli/command.h"
@@ -7,6 +9,8 @@
 #include "cli/progress.h"
 #include "rollrig/sweep.h"
 #include "sim/core/text.h"
+
+namespace fs = std::filesystem;
 
 namespace rollrig::cli {
 namespace {
@@ -17,17 +21,33 @@ struct SweepOptions {
   OutputOptions output;
 };
 
-/// "out.unfinished" for "out" and "out/".
-std::string name_beside(std::string folder, const char* ending) {
-  while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
-  return folder + ending;
+/// "out.unfinished" for "out" and "out/", also where the folder is the working folder. Empty where the folder beside
+/// cannot be made.
+std::string place_unfinished(const std::string& out) {
+  fs::path place = fs::path(out).lexically_normal();
+  if (!place.has_filename()) place = place.parent_path();  // "out/"
+  if (place.filename() == "." || place.filename() == "..") place = fs::weakly_canonical(fs::absolute(place));
+  place += ".unfinished";
+  const fs::path parent = place.has_parent_path() ? place.parent_path() : fs::path(".");
+  const bool is_refused = fs::exists(parent) && ::access(parent.c_str(), W_OK) != 0;
+  return is_refused ? std::string() : place.string();
 }
 
 int sweep_command(const SweepOptions& options) {
   require_one_process("sweep", "rollrig campaign new and run", options.output.quiet);
   SweepInput input = options.sweep;
   for (const std::string& text : options.vary) input.axes.push_back(read_sweep_axis(text));
-  if (!options.output.folder.empty()) input.kept_in = name_beside(options.output.folder, ".unfinished");
+  if (!options.output.folder.empty()) {
+    input.kept_in = place_unfinished(options.output.folder);
+    if (input.kept_in.empty() && !options.output.quiet) {
+      std::cerr << wrap(fmt::format(
+                            "warning: nothing is kept if the sweep is interrupted, since the folder of {} cannot "
+                            "be written to",
+                            options.output.folder),
+                        2)
+                       .substr(2);
+    }
+  }
   const Sweep sweep(input);
   Output output(options.output);
   SweepResult result;

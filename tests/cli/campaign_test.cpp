@@ -149,7 +149,7 @@ TEST_CASE("which factor a result depends on", "[fast]") {
   run_to_end("campaign sensitivity c --result rrc_N_per_kN --html c.html", at);
   CHECK_THAT(read_file(at.file("c.html")), Catch::Contains("Mean of rrc in N/kN over ambient and pressure"));
   run_to_end(std::string("campaign new few ") + kRun +
-                 " --vary ambient_degC=20,30 --vary load_N=5000,5400 --design sobol_indices --points 8",
+                 " --vary ambient_degC=20,30 --vary load_N=5000,5400 --design sobol_indices --points 16",
              at);
   run_to_end("campaign run few", at);
   run_to_end("campaign sensitivity few --result rrc_N_per_kN --html few.html", at);
@@ -196,10 +196,11 @@ TEST_CASE("indices of RRc are those of its closed form", "[slow]") {
 TEST_CASE("a campaign of diagnoses has what a diagnosis of the folder has", "[slow]") {
   const TemporaryFolder at;
   const std::string example = std::string(ROLLRIG_SOURCE_DIR) + "/assets/examples/hidden_effect";
-  for (const char* name : {"sets/one", "sets/two", "sets/broken"}) {
+  for (const char* name : {"sets/one", "sets/two", "sets/broken", "sets/empty"}) {
     std::filesystem::create_directories(at.file("sets"));
     std::filesystem::copy(example, at.file(name), std::filesystem::copy_options::recursive);
   }
+  write_file(at.file("sets/empty/tire.toml"), "");
   write_file(at.file("sets/broken/tire.toml"), "format = \"rollrig-tire/2\"\n");
   // Of a tire that fits far worse than others, the diagnosis reads those of the assets.
   std::string tire = read_file(example + "/tire.toml");
@@ -208,9 +209,12 @@ TEST_CASE("a campaign of diagnoses has what a diagnosis of the folder has", "[sl
   const std::string options = " --only bearing_warmup,convection_law,torque_gain";
   const ProgramResult alone = run_program("diagnose sets --quiet --json alone.json" + options, at.path());
   CHECK(alone.status == 2);
-  run_to_end("campaign new-diagnoses c sets" + options, at);
-  CHECK(run_program("campaign run c --shard 2/3", at.path()).status == 0);
-  CHECK_THAT(run_to_end("campaign summary c", at), Catch::Contains("2 sets not diagnosed yet"));
+  const ProgramResult made = run_program("campaign new-diagnoses c sets" + options, at.path());
+  CHECK(made.status == 0);
+  CHECK_THAT(flatten(made.err), Catch::Contains("this set will fail") && Catch::Contains("is empty"));
+  CHECK(run_program("campaign new-diagnoses wrong sets --smallest-effect 200", at.path()).status == 2);
+  CHECK(run_program("campaign run c --shard 3/4", at.path()).status == 0);
+  CHECK_THAT(run_to_end("campaign summary c", at), Catch::Contains("3 sets not diagnosed yet"));
   CHECK(run_program("campaign run c", at.path()).status == 3);
   const ProgramResult summary = run_program("campaign summary c --json summary.json --html c.html", at.path());
   CHECK(summary.status == 0);
@@ -218,8 +222,8 @@ TEST_CASE("a campaign of diagnoses has what a diagnosis of the folder has", "[sl
   const Json of_folder = Json::parse(read_file(at.file("alone.json")));
   const Json of_campaign = Json::parse(read_file(at.file("summary.json")));
   CHECK(of_campaign["recurring"] == of_folder["recurring"]);
-  REQUIRE(of_campaign["sets"].size() == 3);
-  for (std::size_t i = 0; i < 3; ++i) {
+  REQUIRE(of_campaign["sets"].size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
     CHECK(of_campaign["sets"][i]["diagnosis"] == of_folder["sets"][i]["diagnosis"]);
     CHECK(of_campaign["sets"][i]["failure"].is_null() == of_folder["sets"][i]["failure"].is_null());
   }

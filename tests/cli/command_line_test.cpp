@@ -217,6 +217,28 @@ TEST_CASE("a sweep that is interrupted goes on where it stopped", "[fast]") {
   CHECK(!fs::exists(folder.file("out.unfinished")));
 }
 
+TEST_CASE("a sweep into the working folder keeps its points beside it", "[fast]") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.file("here"));
+  const std::string sweep = "sweep iso_28580 --tire a50 --fidelity quasi_static --vary load_N=5000,6000 --out ";
+  for (const char* out : {". --force", "./ --force", "deeper/."}) {
+    const auto run = run_program(sweep + out, folder.file("here"));
+    INFO(out << run.err);
+    CHECK(run.status == 0);
+  }
+  CHECK(fs::exists(folder.file("here/sweep.csv")));
+  CHECK(fs::exists(folder.file("here/deeper/sweep.csv")));
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("what is not of a sweep stays in the folder of its points", "[fast]") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.file("out.unfinished"));  // empty: as if it were not there
+  const std::string sweep = "sweep iso_28580 --tire a50 --fidelity quasi_static --vary load_N=5000,6000 --out out";
+  REQUIRE(run_program(sweep + " --json out.unfinished/mine.json", folder.path()).status == 0);
+  CHECK(fs::exists(folder.file("out.unfinished/mine.json")));
+}
+
 TEST_CASE("a sweep in several processes of one launcher is refused", "[fast]") {
   const TemporaryFolder folder;
   const std::string sweep = "sweep iso_28580 --tire a50 --fidelity quasi_static --vary load_N=5000,6000";

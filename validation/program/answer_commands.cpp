@@ -63,11 +63,12 @@ int run_tasks(const campaigns::Ranks& ranks, const RunOptions& options, const st
     for (const auto& [number, why] : own.failures) std::cerr << wrap(fmt::format("case {}: {}", number, why), 2);
   }
   if (ranks.is_first() && (is_stopped || !options.quiet)) {
-    std::string text =
-        fmt::format("{} of {} cases answered in {}/: {} now, {} before", sums[0] + sums[1], all, out, sums[1], sums[0]);
+    const bool is_part = ranks.count() == 1 && part.count > 1;
+    std::string text = fmt::format(
+        "{} of {} cases{} answered in {}/: {} now, {} before", sums[0] + sums[1], is_part ? part.count_of(all) : all,
+        is_part ? fmt::format(" of part {} of {}", part.number, part.count) : "", out, sums[1], sums[0]);
     if (sums[2] > 0) text += fmt::format("; {} not diagnosed", sums[2]);
     if (ranks.count() > 1) text += fmt::format("; {} processes", ranks.count());
-    if (ranks.count() == 1 && part.count > 1) text += fmt::format("; part {} of {}", part.number, part.count);
     if (is_stopped) text = "stopped: " + text;
     (is_stopped ? std::cerr : std::cout) << wrap(text, 2).substr(2);
     if (is_stopped) std::cerr << "the same command goes on from here\n";
