@@ -49,8 +49,9 @@ class Sweep {
   /// Throws InputError, also for a result to be shown that the scenario does not have.
   explicit Sweep(const SweepInput& input);
   /// Runs all points, several at a time. If SweepInput::kept_in has points of an interrupted sweep, it runs the others;
-  /// one call at a time, and the folder is removed if all points fail. A point that fails is named in the result. Throws InputError for a result to
-  /// be shown that no point has, RunFailure where all points fail, Interrupted.
+  /// one call at a time, and the folder is removed if all points fail. A point that fails is named in the result.
+  /// Throws InputError for a result to be shown that no point has, and where kept_in holds another sweep; RunFailure
+  /// where all points fail; Interrupted.
   SweepResult carry_out(const Progress& progress = {}) const;
   /// Removes the folder of SweepInput::kept_in, once the result is written.
   void remove_kept() const;
