@@ -9,6 +9,7 @@
 
 #include "report/blocks.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 
 namespace rollrig::report {
 namespace {
