@@ -19,6 +19,9 @@ class CampaignItems : public WatchedItems {
   /// Throws InputError where one of the items of a design, or each of the sets, is wrong, as far as that can be told
   /// without carrying out all of them.
   virtual Check check() const = 0;
+  /// The same of one item alone: for each process that begins, after check() has passed. Throws InputError where the
+  /// items cannot be carried out here, such as with other assets.
+  virtual void check_briefly() const = 0;
 
   /// Names of the columns that identify an item, and their values for one item.
   virtual std::vector<std::string> list_keys() const = 0;

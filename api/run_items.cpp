@@ -50,6 +50,19 @@ Json RunItems::carry_out(std::size_t item, std::uint64_t seed) const {
   return result;
 }
 
+std::vector<std::string> RunItems::find_usual_values() const {
+  if (is_list_) return calc_values(0);
+  std::vector<std::string> medians;
+  for (const campaigns::Factor& factor : factors_) medians.push_back(factor.calc_value(0.5));
+  return medians;
+}
+
+void RunItems::check_briefly() const {
+  const std::vector<std::string> values = find_usual_values();
+  check_at(values);
+  carry_out_quickly(read(values, 1));  // some files are read only then
+}
+
 void RunItems::check_at(const std::vector<std::string>& values) const {
   const scenarios::RunSpec spec = read(values, 1);
   scenarios::prepare_run(spec);
@@ -65,7 +78,6 @@ void RunItems::check_list() const {
     }
     if (count() <= kMostChecked || has_new_word || item == 0 || item + 1 == count()) check_at(values);
   }
-  carry_out_quickly(read(calc_values(0), 1));  // some files are read only then
 }
 
 void RunItems::check_combinations() const {
@@ -77,10 +89,7 @@ void RunItems::check_combinations() const {
     check_at(calc_values(0));
     check_at(calc_values(count() - 1));
   }
-  std::vector<std::string> medians;
-  for (const campaigns::Factor& factor : factors_) medians.push_back(factor.calc_value(0.5));
-  check_at(medians);
-  carry_out_quickly(read(medians, 1));  // some files are read only then
+  const std::vector<std::string> medians = find_usual_values();
   for (std::size_t f = 0; f < factors_.size(); ++f) {
     for (const std::string& value : factors_[f].values) {
       if (parse_number(value).has_value()) continue;
@@ -98,6 +107,7 @@ CampaignItems::Check RunItems::check() const {
   } else {
     check_combinations();
   }
+  check_briefly();
   return {hash_files(recorder.list_files()), {}};
 }
 

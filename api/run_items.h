@@ -32,11 +32,14 @@ class RunItems : public CampaignItems {
   /// with each word or path that a factor takes; of draws the item at the median of each factor. Carries out one item,
   /// in the quicker fidelity.
   Check check() const override;
+  void check_briefly() const override;
   void learn_names(const Json& result) override { flattener_.learn_names(result); }
   Json flatten(const Json& result) const override { return flattener_.flatten(result); }
 
  private:
   scenarios::RunSpec read(const std::vector<std::string>& values, std::uint64_t seed) const;
+  /// Of a list its first item, else the median of each factor: of draws, an item itself may be one that fails.
+  std::vector<std::string> find_usual_values() const;
   void check_at(const std::vector<std::string>& values) const;
   /// Of a list, whose values belong together.
   void check_list() const;

@@ -243,7 +243,8 @@ void add_new_campaign(CLI::App& campaign, Action& action) {
 
 void add_new_diagnoses(CLI::App& campaign, Action& action) {
   const auto [command, options] = add_command<NewDiagnosesOptions>(
-      campaign, action, "new-diagnoses", "The same for the diagnosis of many measurement sets", &new_diagnoses_command);
+      campaign, action, "new-diagnoses", "Define a campaign that diagnoses many measurement sets",
+      &new_diagnoses_command);
   command->add_option("folder", options->folder, "Folder to make")->required();
   command->add_option("sets", options->sets, "Folder of folders with measurement sets")->required();
   options->comparison.add_to(*command);
