@@ -53,7 +53,8 @@ class Sweep {
   /// Throws InputError for a result to be shown that no point has, and where kept_in holds another sweep; RunFailure
   /// where all points fail; Interrupted.
   SweepResult carry_out(const Progress& progress = {}) const;
-  /// Removes the points that SweepInput::kept_in holds, once the result is written; and the folder, if it is empty then.
+  /// Removes the points that SweepInput::kept_in holds, once the result is written; and the folder, if it is empty
+  /// then.
   void remove_kept() const;
 
  private:
