@@ -11,6 +11,7 @@
 #include <boost/algorithm/string/split.hpp>
 
 #include "api/data.h"
+#include "api/kept_points.h"
 #include "api/sweep_items.h"
 #include "campaigns/items.h"
 #include "campaigns/store.h"
@@ -29,6 +30,7 @@ namespace rollrig {
 struct Sweep::Data {
   SweepItems items;
   scenarios::RunSpec first;
+  std::unique_ptr<const KeptPoints> kept;  // none: nowhere
 };
 
 namespace {
@@ -219,25 +221,12 @@ Sweep::Sweep(const SweepInput& input) {
   std::vector<std::string> declared;
   for (const scenarios::ResultInfo& info : first.scenario->results) declared.push_back(info.key);
   require_declared(input.shown, declared);
-  data_ = std::make_shared<Data>(Data{std::move(items), std::move(first)});
+  std::unique_ptr<const KeptPoints> kept;
+  if (!input.kept_in.empty()) kept = std::make_unique<KeptPoints>(input.kept_in, items.define(first.seed));
+  data_ = std::make_shared<Data>(Data{std::move(items), std::move(first), std::move(kept)});
 }
 
 namespace {
-
-constexpr const char* kDefinitionFile = "sweep_definition.json";
-
-/// Makes the folder in which points are kept. Throws InputError where it holds those of another sweep.
-void open_kept(const campaigns::CampaignFolder& folder) {
-  const std::string file = (fs::path(folder.path) / kDefinitionFile).string();
-  std::error_code none;
-  if (!is_there(folder.path) || fs::is_empty(folder.path, none)) {
-    write_folder(folder.path, {{kDefinitionFile, folder.definition}});
-  } else if (!is_there(file) || read_text_file(file) != folder.definition) {
-    throw InputError({fmt::format("'{}' holds the points of another, unfinished sweep", folder.path), "command line", 0,
-                      "--out", folder.path,
-                      "the settings, files and version of that sweep, to go on with it; or delete the folder", ""});
-  }
-}
 
 /// All points, in their order.
 std::vector<campaigns::Record> carry_out_points(const SweepItems& items, std::uint64_t seed,
@@ -246,12 +235,11 @@ std::vector<campaigns::Record> carry_out_points(const SweepItems& items, std::ui
   const campaigns::CampaignFolder folder{input.kept_in, items.define(seed), seed};
   std::vector<campaigns::Record> records(items.count());
   const auto take = [&records](const campaigns::Record& record) { records.at(record.item) = record; };
-  if (input.kept_in.empty()) {
+  if (input.kept_in.empty() || !is_there(input.kept_in)) {  // after remove_kept(), nothing is kept
     std::vector<std::size_t> all(items.count());
     std::iota(all.begin(), all.end(), std::size_t{0});
     campaigns::carry_out_each(items, folder, all, input.threads, take, advance);
   } else {
-    open_kept(folder);
     campaigns::carry_out_items(items, folder, {1, 1}, input.threads, advance);
     campaigns::read_records(folder.list_files(), folder.definition, take);
   }
@@ -261,14 +249,7 @@ std::vector<campaigns::Record> carry_out_points(const SweepItems& items, std::ui
 }  // namespace
 
 void Sweep::remove_kept() const {
-  const fs::path folder = data_->items.input().kept_in;
-  if (folder.empty()) return;
-  std::error_code ignored;  // what cannot be removed does no harm
-  for (const std::string& results : campaigns::CampaignFolder{folder.string(), "", 0}.list_files()) {
-    fs::remove(results, ignored);
-  }
-  fs::remove(folder / kDefinitionFile, ignored);
-  fs::remove(folder, ignored);  // unless it holds files of somebody else
+  if (data_->kept != nullptr) data_->kept->remove();
 }
 
 SweepResult Sweep::carry_out(const Progress& progress) const {

@@ -22,14 +22,23 @@ add_library(rollrig_udunits INTERFACE)
 target_include_directories(rollrig_udunits SYSTEM INTERFACE "${UDUNITS_INCLUDE_DIR}")
 target_link_libraries(rollrig_udunits INTERFACE "${UDUNITS_LIBRARY}")
 
-# HDF5 without MPI, the one that Debian's matio brings along: two of them in one program would meet.
-pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
-# matio: by hand, since its pkg-config file names its own dependencies where they are not.
+# HDF5 without MPI, the one that Debian's matio brings along: two of them in one program would meet. Programs link both
+# statically, with szip and aec that they need: Debian's shared HDF5 loads curl, Kerberos, LDAP and thirty more
+# libraries for files in the cloud, which rollrig never reads, and which double the time that a program takes to start.
+# Shared libraries cannot take the static ones, which are not position-independent.
+pkg_check_modules(hdf5 REQUIRED hdf5-serial)
 find_path(MATIO_INCLUDE_DIR matio.h REQUIRED)
 find_library(MATIO_LIBRARY matio REQUIRED)
-add_library(rollrig_matio INTERFACE)
-target_include_directories(rollrig_matio SYSTEM INTERFACE "${MATIO_INCLUDE_DIR}")
-target_link_libraries(rollrig_matio INTERFACE "${MATIO_LIBRARY}")
+find_library(MATIO_STATIC libmatio.a REQUIRED)
+find_library(HDF5_STATIC libhdf5.a REQUIRED HINTS ${hdf5_LIBRARY_DIRS} ${hdf5_LIBDIR})
+find_library(SZIP_STATIC libsz.a REQUIRED)
+find_library(AEC_STATIC libaec.a REQUIRED)
+add_library(rollrig_hdf5 INTERFACE)
+target_include_directories(rollrig_hdf5 SYSTEM INTERFACE "${MATIO_INCLUDE_DIR}" ${hdf5_INCLUDE_DIRS})
+set(is_program $<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>)
+target_link_libraries(rollrig_hdf5 INTERFACE
+  "$<${is_program}:${MATIO_STATIC};${HDF5_STATIC};${SZIP_STATIC};${AEC_STATIC};ZLIB::ZLIB;${CMAKE_DL_LIBS}>"
+  "$<$<NOT:${is_program}>:${hdf5_LINK_LIBRARIES};${MATIO_LIBRARY}>")
 
 # Simbody: its configuration file names libraries and folders only.
 find_package(Simbody 3.7 REQUIRED NAMES Simbody simbody)

@@ -46,12 +46,12 @@ struct SweepResult : Report {
 /// A sweep whose runs are all read and checked. Copies share it; any number of threads may use it.
 class Sweep {
  public:
-  /// Throws InputError, also for a result to be shown that the scenario does not have.
+  /// Throws InputError, also for a result to be shown that the scenario does not have, and where SweepInput::kept_in
+  /// holds another sweep or another process uses it. It is this sweep's alone while a copy is there.
   explicit Sweep(const SweepInput& input);
   /// Runs all points, several at a time. If SweepInput::kept_in has points of an interrupted sweep, it runs the others;
   /// one call at a time, and the folder is removed if all points fail. A point that fails is named in the result.
-  /// Throws InputError for a result to be shown that no point has, and where kept_in holds another sweep; RunFailure
-  /// where all points fail; Interrupted.
+  /// Throws InputError for a result to be shown that no point has; RunFailure where all points fail; Interrupted.
   SweepResult carry_out(const Progress& progress = {}) const;
   /// Removes the points that SweepInput::kept_in holds, once the result is written; and the folder, if it is empty
   /// then.

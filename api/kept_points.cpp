@@ -1,0 +1,95 @@
+#include "api/kept_points.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "campaigns/items.h"
+#include "include/rollrig/error.h"
+#include "sim/core/file_io.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig {
+namespace {
+
+constexpr const char* kDefinitionFile = "sweep_definition.json";
+
+InputError kept_problem(const std::string& path, const std::string& what, const std::string& allowed) {
+  return InputError({fmt::format("'{}' {}", path, what), "command line", 0, "--out", path, allowed, ""});
+}
+
+}  // namespace
+
+KeptPoints::KeptPoints(std::string path, const std::string& definition) : path_(std::move(path)) {
+  open();
+  try {
+    require_definition(definition);
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+}
+
+KeptPoints::~KeptPoints() {
+  if (campaigns::CampaignFolder{path_, "", 0}.list_files().empty()) remove();
+  ::close(lock_);
+}
+
+/// Opens the folder, and makes it if need be. Another process may remove it between these two steps: then once more.
+void KeptPoints::open() {
+  do {
+    if (lock_ >= 0) ::close(lock_);
+    std::error_code error;
+    fs::create_directories(path_, error);
+    lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0 && errno != ENOENT) {
+      throw kept_problem(path_, fmt::format("cannot be used: {}", std::generic_category().message(errno)),
+                         "a folder that can be written to");
+    }
+    if (lock_ < 0 && error) {
+      throw kept_problem(path_, fmt::format("cannot be made: {}", error.message()), "a folder that can be made");
+    }
+    // Where the file system knows no locks, two processes meet at the files of results, which have their own.
+    if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(lock_);
+      throw kept_problem(path_, "is in use: another process runs a sweep with the same --out",
+                         "to wait for it, or another --out");
+    }
+  } while (!is_own());
+}
+
+/// Whether the folder that is locked is still the one at the path.
+bool KeptPoints::is_own() const {
+  struct stat locked {};
+  struct stat there {};
+  return lock_ >= 0 && ::fstat(lock_, &locked) == 0 && ::stat(path_.c_str(), &there) == 0 &&
+         locked.st_ino == there.st_ino && locked.st_dev == there.st_dev;
+}
+
+void KeptPoints::require_definition(const std::string& definition) const {
+  const std::string file = (fs::path(path_) / kDefinitionFile).string();
+  std::error_code none;
+  if (fs::is_empty(path_, none)) {
+    write_file_atomically(file, definition);
+  } else if (!is_there(file) || read_text_file(file) != definition) {
+    throw kept_problem(path_, "holds the points of another, unfinished sweep",
+                       "the settings, files and version of that sweep, to go on with it; or delete the folder");
+  }
+}
+
+void KeptPoints::remove() const {
+  std::error_code ignored;  // what cannot be removed does no harm
+  for (const std::string& results : campaigns::CampaignFolder{path_, "", 0}.list_files()) fs::remove(results, ignored);
+  fs::remove(fs::path(path_) / kDefinitionFile, ignored);
+  fs::remove(path_, ignored);  // unless it holds files of somebody else
+}
+
+}  // namespace rollrig
