@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <exception>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -39,7 +40,10 @@ KeptPoints::KeptPoints(std::string path, const std::string& definition) : path_(
 }
 
 KeptPoints::~KeptPoints() {
-  if (campaigns::CampaignFolder{path_, "", 0}.list_files().empty()) remove();
+  try {
+    if (is_own() && campaigns::CampaignFolder{path_, "", 0}.list_files().empty()) remove();
+  } catch (const std::exception&) {  // the folder has gone meanwhile, or may not be read: there is nothing to remove
+  }
   ::close(lock_);
 }
 
