@@ -3,14 +3,21 @@
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME runtime)
 
-# The shared library is found, and the assets are, wherever the prefix moves.
+# The shared library is found, and the assets are, wherever the prefix moves. The build tree has programs and libraries in
+# the same folders as the prefix, so that a program needs no other path when it is installed. (CMake would append an
+# empty entry to a path that it is to replace, and the loader would look for libraries in the working folder.)
 file(RELATIVE_PATH rollrig_libraries_from_programs "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(rollrig PROPERTIES INSTALL_RPATH "$ORIGIN/${rollrig_libraries_from_programs}")
-install(TARGETS rollrig RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+set_target_properties(rollrig_cvodes rollrig_library PROPERTIES
+  LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}" INSTALL_RPATH "$ORIGIN")
+set(rollrig_programs rollrig)
 if(ROLLRIG_MPI_FOUND AND NOT ROLLRIG_DEBIAN_PACKAGES)  # a package would depend on Open MPI for all users
-  set_target_properties(rollrig_mpi PROPERTIES INSTALL_RPATH "$ORIGIN/${rollrig_libraries_from_programs}")
-  install(TARGETS rollrig_mpi RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  list(APPEND rollrig_programs rollrig_mpi)
 endif()
+set_target_properties(${rollrig_programs} PROPERTIES INSTALL_RPATH "$ORIGIN/${rollrig_libraries_from_programs}")
+if(NOT ROLLRIG_DEBIAN_PACKAGES)  # packages have no such path at all, since their libraries are the system's
+  set_target_properties(${rollrig_programs} rollrig_library PROPERTIES BUILD_WITH_INSTALL_RPATH ON)
+endif()
+install(TARGETS ${rollrig_programs} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(DIRECTORY assets/ DESTINATION "${CMAKE_INSTALL_DATADIR}/rollrig/assets")
 
 install(FILES "${PROJECT_BINARY_DIR}/cli/rollrig.1.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
