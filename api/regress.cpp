@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
+#include "api/regression_items.h"
+#include "campaigns/items.h"
 #include "report/list_pages.h"
-#include "scenarios/run/golden.h"
-#include "scenarios/run/run_spec.h"
+#include "rollrig/version.h"
 #include "sim/core/assets.h"
 #include "sim/core/file_io.h"
 #include "sim/core/interrupt.h"
-#include "sim/core/parallel.h"
 #include "sim/core/text.h"
 
 namespace fs = std::filesystem;
@@ -31,39 +32,6 @@ std::vector<std::string> list_names(const std::string& folder, const std::string
   }
   std::sort(names.begin(), names.end());
   return names;
-}
-
-std::string find_golden_file(const std::string& folder, const RegressedRun& run) {
-  return (fs::path(folder) / (run.name + ".golden.csv")).string();
-}
-
-/// One bad file must not hide how the others fare: it is a status of its run.
-void regress_run(const std::string& folder, RegressedRun& run) {
-  const std::string golden_file = find_golden_file(folder, run);
-  try {
-    run.status = "bad run file";  // if reading it throws
-    const ConfigTable document = read_config((fs::path(folder) / (run.name + ".toml")).string());
-    const scenarios::RunSpec spec = scenarios::read_run_spec(document, folder);
-    const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
-    to_text(outcome.result);  // throws where a result is no number
-    std::vector<scenarios::GoldenValue> now = scenarios::make_golden(outcome);
-    run.golden = scenarios::write_golden(now);
-    run.status = fs::exists(golden_file) ? "bad golden" : "no golden";  // likewise
-    if (run.status == "no golden") {
-      run.problems = {fmt::format("there is no {}; --update writes it", golden_file)};
-      return;
-    }
-    const std::vector<scenarios::GoldenValue> golden = scenarios::read_golden(golden_file);
-    scenarios::keep_tolerances(golden, now);
-    run.golden = scenarios::write_golden(now);
-    static_cast<GoldenComparison&>(run) = scenarios::compare_with_golden(golden, now);
-    run.status = run.problems.empty() ? "same" : "differs";
-  } catch (const RunFailure& failure) {
-    run.status = "failed";
-    run.problems = {failure.what()};
-  } catch (const InputError& error) {
-    run.problems = {error.what()};
-  }
 }
 
 /// The first of what differs in each run.
@@ -96,27 +64,40 @@ void make_report(Regression& found) {
   found.make_page = [json] { return report::make_html(report::make_regress_page(json)); };
 }
 
+/// All runs, compared with their goldens, in the order of their names.
+std::vector<RegressedRun> carry_out_runs(const std::string& folder, const std::vector<std::string>& names,
+                                         const RegressionOptions& options) {
+  const RegressionItems items(folder, names);
+  const campaigns::CampaignFolder nowhere{"", library_version(), 0};  // the results go into no file
+  std::vector<std::size_t> all(items.count());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<RegressedRun> runs(items.count());
+  const auto take = [&](const campaigns::Record& record) {
+    runs[record.item] = read_comparison(names[record.item], record.result);
+  };
+  campaigns::carry_out_each(items, nowhere, all, options.threads, take, [&](double share) {
+    if (options.progress) options.progress(share, "");
+  });
+  return runs;
+}
+
 }  // namespace
 
 Regression regress(const std::string& folder, const RegressionOptions& options) {
   Regression found;
   found.folder = folder.empty() ? (fs::path(find_assets_folder()) / "regression").string() : folder;
-  for (const std::string& name : list_names(found.folder, ".toml")) found.runs.push_back({{}, name});
-  if (found.runs.empty()) {
+  const std::vector<std::string> names = list_names(found.folder, ".toml");
+  if (names.empty()) {
     throw InputError({fmt::format("no run files in '{}'", found.folder), found.folder, 0, "", "",
                       "a folder with run files (.toml)", ""});
   }
-  parallel_for(
-      found.runs.size(), options.threads, [&](std::size_t i) { regress_run(found.folder, found.runs[i]); },
-      [&](double share) {
-        if (options.progress) options.progress(share, "");
-      });
+  found.runs = carry_out_runs(found.folder, names, options);
   // A golden without a run file is listed, lest a renamed run goes unchecked.
   for (const std::string& name : list_names(found.folder, ".golden.csv")) {
     const std::string run_file = (fs::path(found.folder) / (name + ".toml")).string();
     if (fs::exists(run_file)) continue;
     RegressedRun& run = found.runs.emplace_back(RegressedRun{{}, name, "no run file"});
-    run.problems = {fmt::format("{} has no run file {}", find_golden_file(found.folder, run), run_file)};
+    run.problems = {fmt::format("{} has no run file {}", find_golden_file(found.folder, run.name), run_file)};
   }
   make_report(found);
   return found;
@@ -126,7 +107,7 @@ Regression update_goldens(Regression found) {
   for (RegressedRun& run : found.runs) {
     if (run.golden.empty() || run.status == "same") continue;
     throw_if_interrupted();
-    write_file_atomically(find_golden_file(found.folder, run), run.golden);
+    write_file_atomically(find_golden_file(found.folder, run.name), run.golden);
     if (run.status == "no golden") run.problems.clear();  // else they say what was updated
     run.status = "updated";
   }
