@@ -63,8 +63,10 @@ inline void add_threads(CLI::App& command, int& threads,
 }
 
 /// For a command that does not share its work: throws InputError where mpirun or srun has started several processes,
-/// each of which would do all of it. Warns in a task of a job array, unless `quiet`: other tasks may do the same.
-void require_one_process(const std::string& command, const std::string& instead, bool quiet);
+/// each of which would do all of it. `command` begins with the name of the program. `instead` says how the work can be
+/// shared, and is empty where it cannot; otherwise, a task of a job array is warned, unless `quiet`: other tasks may do
+/// the same.
+void require_one_process(const std::string& command, const std::string& instead = "", bool quiet = false);
 
 /// --smallest-effect.
 void add_smallest_effect(CLI::App& command, double& percent);

@@ -56,7 +56,7 @@ DiagnosisOptions make_options(const DiagnoseOptions& options, ProgressLine& prog
 
 /// A folder of sets.
 int diagnose_all(const DiagnoseOptions& options, const std::vector<std::string>& sets) {
-  require_one_process("diagnose", "rollrig campaign new-diagnoses and run", options.output.quiet);
+  require_one_process("rollrig diagnose", "rollrig campaign new-diagnoses and run", options.output.quiet);
   Output output(options.output);
   const FleetDiagnosis fleet = [&] {
     ProgressLine progress("diagnose", options.output.quiet);

@@ -42,7 +42,7 @@ void tell_problems(const Regression& found) {
 }
 
 int regress_command(const RegressOptions& options) {
-  require_one_process("regress", "a folder of run files for each process", options.output.quiet);
+  require_one_process("rollrig regress", "a folder of run files for each process", options.output.quiet);
   Output output(options.output);
   Regression found = [&] {
     ProgressLine progress("regress", options.output.quiet);

@@ -34,7 +34,7 @@ std::string place_unfinished(const std::string& out) {
 }
 
 int sweep_command(const SweepOptions& options) {
-  require_one_process("sweep", "rollrig campaign new and run", options.output.quiet);
+  require_one_process("rollrig sweep", "rollrig campaign new and run", options.output.quiet);
   SweepInput input = options.sweep;
   for (const std::string& text : options.vary) input.axes.push_back(read_sweep_axis(text));
   if (!options.output.folder.empty()) {

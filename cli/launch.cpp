@@ -28,13 +28,12 @@ void require_one_process(const std::string& command, const std::string& instead,
   const std::optional<CampaignPart> launched = find_launched_part();
   if (launched.has_value() && launched->count > 1) {
     throw usage_error(fmt::format("{} processes were started, and each would do all of the work", launched->count),
-                      "rollrig " + command, "", fmt::format("one process; to share the work, {}", instead));
+                      command, "", "one process" + (instead.empty() ? "" : "; to share the work, " + instead));
   }
-  if (quiet || !is_array_task()) return;
-  std::cerr << wrap(fmt::format(
-                        "warning: this is a task of a job array. rollrig {} does all of its work in each task; to "
-                        "share it, {}",
-                        command, instead),
+  if (quiet || instead.empty() || !is_array_task()) return;
+  std::cerr << wrap(fmt::format("warning: this is a task of a job array. {} does all of its work in each task; to "
+                                "share it, {}",
+                                command, instead),
                     2)
                    .substr(2);
 }

@@ -150,6 +150,18 @@ TEST_CASE("processes without MPI answer the cases of their part", "[fast]") {
   CHECK(run_validation("run set --shard 3/2", made.folder.path()).status == 2);
 }
 
+TEST_CASE("commands that do not share their work refuse to start as several processes", "[fast]") {
+  const ValidationSetFolder made;
+  for (const char* words : {"make --out new --kind drum --singles 1 --pairs 0 --none 0 --outside 0", "upper-bound set",
+                            "follow-up set", "plan set", "loop set --hours 8"}) {
+    INFO(words);
+    const auto second = run_validation(words, made.folder.path(), "env OMPI_COMM_WORLD_RANK=1 OMPI_COMM_WORLD_SIZE=2");
+    CHECK(second.status == 2);
+    CHECK_THAT(flatten(second.err), Contains("2 processes were started, and each would do all of the work"));
+  }
+  CHECK(!fs::exists(made.folder.file("new")));
+}
+
 #ifdef ROLLRIG_MPIEXEC
 TEST_CASE("under mpirun the processes share the sets, and one of them prints", "[fast]") {
   const ValidationSetFolder made;

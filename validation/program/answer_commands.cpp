@@ -49,11 +49,11 @@ int run_tasks(const campaigns::Ranks& ranks, const RunOptions& options, const st
   order.answer_by = answer_by;
   order.threads = options.threads > 0 ? options.threads : ranks.threads();
   const campaigns::Part part = choose_part(ranks, options.shard);
-  order.rank = part.number - 1;
-  order.ranks = part.count;
+  order.part = part;
   cli::ProgressLine progress("validation", options.quiet || !ranks.is_first());
   order.progress = [&progress, &order](std::size_t done, std::size_t of) {
-    progress.update(std::nan(""), fmt::format("{} of {} cases{}", done, of, order.ranks > 1 ? " of this process" : ""));
+    progress.update(std::nan(""),
+                    fmt::format("{} of {} cases{}", done, of, order.part.count > 1 ? " of this process" : ""));
   };
   const RunTally own = run_cases(order);
   progress.clear();

@@ -76,6 +76,7 @@ struct MakeOptions {
 };
 
 int make_command(MakeOptions options) {
+  cli::require_one_process("rollrig_validation make");
   ValidationSetOrder& order = options.order;
   order.campaigns = read_campaigns(order.kind);
   order.outside_list = read_outside_list(options.outside_list);
@@ -92,6 +93,7 @@ int make_command(MakeOptions options) {
 }
 
 int upper_bound_command(UpperBoundOrder order) {
+  cli::require_one_process("rollrig_validation upper-bound");
   cli::ProgressLine line("validation", false);
   const std::size_t cases = write_upper_bounds(order, show_share_of_cases(line));
   line.clear();
@@ -100,6 +102,7 @@ int upper_bound_command(UpperBoundOrder order) {
 }
 
 int follow_up_command(const FollowUpOrder& order) {
+  cli::require_one_process("rollrig_validation follow-up");
   cli::ProgressLine line("validation", false);
   const std::size_t cases = write_follow_up(order, show_share_of_cases(line));
   line.clear();

@@ -105,6 +105,7 @@ LoopTests find_loop_tests(const std::string& name) {
 }
 
 int loop_command(const LoopCommandOptions& options) {
+  cli::require_one_process("rollrig_validation loop");
   if (!(options.failing_percent >= 0.0 && options.failing_percent <= 100.0)) {
     throw cli::usage_error("no share of tests", "--failing", fmt::format("{:g}", options.failing_percent), "0 to 100");
   }

@@ -32,6 +32,7 @@ std::string summarize(const std::vector<FollowUpPlan>& plans, const std::string&
 }
 
 int plan_command(PlanCommandOptions options) {
+  cli::require_one_process("rollrig_validation plan");
   PlanOrder& order = options.order;
   if (options.drawn) order.choice = Choice::kDrawn;
   order.answers = place_in(order.set, "answers", order.answers);

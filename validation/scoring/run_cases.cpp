@@ -85,7 +85,9 @@ std::vector<Task> plan_tasks(const std::string& set, const std::vector<std::stri
 RunTally run_cases(const RunOrder& order) {
   make_folder(order.out);
   std::vector<Task> own;
-  for (std::size_t i = order.rank; i < order.tasks.size(); i += order.ranks) own.push_back(order.tasks[i]);
+  for (std::size_t i = 0; i < order.tasks.size(); ++i) {
+    if (order.part.has(i)) own.push_back(order.tasks[i]);
+  }
   const std::string program = hash_program();
   RunTally tally;
   std::mutex mutex;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "campaigns/part.h"
 #include "validation/scoring/answer.h"
 
 namespace rollrig::validation {
@@ -27,11 +28,10 @@ diagnosis::Diagnosis answer_by_diagnosis(const measurements::MeasurementSet& set
 
 struct RunOrder {
   std::string set;
-  std::string out;          // folder of the answers
-  std::vector<Task> tasks;  // the same in each process
-  int threads = 0;          // cases at the same time; 0: as many as the machine has
-  std::size_t rank = 0;     // this process takes every `ranks`-th task
-  std::size_t ranks = 1;
+  std::string out;            // folder of the answers
+  std::vector<Task> tasks;    // the same in each process
+  int threads = 0;            // cases at the same time; 0: as many as the machine has
+  campaigns::Part part = {};  // the tasks of this process
   std::function<void(std::size_t done, std::size_t of)> progress = {};
   AnswerBy answer_by = answer_by_diagnosis;
 };

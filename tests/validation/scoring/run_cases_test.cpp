@@ -73,12 +73,11 @@ TEST_CASE("the truth is not opened: without it, or where it is no file, the answ
 TEST_CASE("processes share the sets: each is answered by one", "[fast]") {
   const ValidationSetFolder made;
   validation::RunOrder order = make_run_order(made);
-  order.ranks = 2;
+  order.part = {1, 2};
   CHECK(validation::run_cases(order).made == 2);
-  order.rank = 1;
+  order.part = {2, 2};
   CHECK(validation::run_cases(order).made == 1);
-  order.ranks = 1;
-  order.rank = 0;
+  order.part = {1, 1};
   CHECK(validation::run_cases(order).kept == 3);
 }
 
