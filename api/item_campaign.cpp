@@ -10,6 +10,7 @@
 
 #include "api/campaign_definition.h"
 #include "api/campaign_items.h"
+#include "api/folder_lock.h"
 #include "api/item_table.h"
 #include "api/open_campaign.h"
 #include "api/sensitivity.h"
@@ -112,6 +113,11 @@ CampaignState ItemCampaign::read_state() const {
 }
 
 CampaignState ItemCampaign::merge() const {
+  const FolderLock alone(data_->folder.path);
+  if (alone.is_taken()) {
+    throw InputError({"another process merges the results of this campaign now", data_->folder.path, 0, "", "",
+                      "to wait until it has ended", ""});
+  }
   const std::vector<std::string> files = data_->list_filled_files();
   const std::string merged = (fs::path(data_->folder.path) / "results.sqlite").string();
   if (files == std::vector<std::string>{merged}) return read_state();

@@ -1,10 +1,6 @@
 #include "api/kept_points.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <exception>
@@ -31,51 +27,33 @@ InputError kept_problem(const std::string& path, const std::string& what, const 
 
 KeptPoints::KeptPoints(std::string path, const std::string& definition) : path_(std::move(path)) {
   open();
-  try {
-    require_definition(definition);
-  } catch (...) {
-    ::close(lock_);
-    throw;
-  }
+  require_definition(definition);
 }
 
 KeptPoints::~KeptPoints() {
-  try {
-    if (is_own() && campaigns::CampaignFolder{path_, "", 0}.list_files().empty()) remove();
-  } catch (const std::exception&) {  // the folder has gone meanwhile, or may not be read: there is nothing to remove
-  }
-  ::close(lock_);
+  if (campaigns::CampaignFolder{path_, "", 0}.list_files().empty()) remove();
 }
 
 /// Opens the folder, and makes it if need be. Another process may remove it between these two steps: then once more.
 void KeptPoints::open() {
   do {
-    if (lock_ >= 0) ::close(lock_);
+    lock_.reset();
     std::error_code error;
     fs::create_directories(path_, error);
-    lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ < 0 && errno != ENOENT) {
-      throw kept_problem(path_, fmt::format("cannot be used: {}", std::generic_category().message(errno)),
+    lock_.emplace(path_);
+    if (lock_->error() != 0 && lock_->error() != ENOENT) {
+      throw kept_problem(path_, fmt::format("cannot be used: {}", std::generic_category().message(lock_->error())),
                          "a folder that can be written to");
     }
-    if (lock_ < 0 && error) {
+    if (lock_->error() != 0 && error) {
       throw kept_problem(path_, fmt::format("cannot be made: {}", error.message()), "a folder that can be made");
     }
     // Where the file system knows no locks, two processes meet at the files of results, which have their own.
-    if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      ::close(lock_);
+    if (lock_->is_taken()) {
       throw kept_problem(path_, "is in use: another process runs a sweep with the same --out",
                          "to wait for it, or another --out");
     }
-  } while (!is_own());
-}
-
-/// Whether the folder that is locked is still the one at the path.
-bool KeptPoints::is_own() const {
-  struct stat locked {};
-  struct stat there {};
-  return lock_ >= 0 && ::fstat(lock_, &locked) == 0 && ::stat(path_.c_str(), &there) == 0 &&
-         locked.st_ino == there.st_ino && locked.st_dev == there.st_dev;
+  } while (!lock_->is_in_place());
 }
 
 void KeptPoints::require_definition(const std::string& definition) const {

@@ -1,7 +1,10 @@
 #pragma once
 /// The folder in which a sweep keeps the points that are done, so that it can go on after an interruption.
 
+#include <optional>
 #include <string>
+
+#include "api/folder_lock.h"
 
 namespace rollrig {
 
@@ -21,11 +24,10 @@ class KeptPoints {
 
  private:
   void open();
-  bool is_own() const;
   void require_definition(const std::string& definition) const;
 
   std::string path_;
-  int lock_ = -1;  // of the folder itself
+  std::optional<FolderLock> lock_;
 };
 
 }  // namespace rollrig

@@ -70,6 +70,10 @@ bool has_log(const std::string& path) { return is_there(path + "-wal") || is_the
 /// Opens a file to read it, beside others that read it. What a killed process has left in the log is taken into the
 /// file first.
 SQLite::Database open_to_read(const std::string& path) {
+  if (!is_there(path)) {
+    throw InputError({"this file of results is no longer there: another process has merged or removed it", path, 0, "",
+                      "", "the same command once more", ""});
+  }
   if (has_log(path)) {
     SQLite::Database database = open_alone(path, SQLite::OPEN_READWRITE);
     take_log_in(database);

@@ -85,8 +85,8 @@ class ItemCampaign {
   CampaignState carry_out(const CampaignPart& part, int threads = 0, const Progress& progress = {}) const;
   /// What all processes have done up to now.
   CampaignState read_state() const;
-  /// Puts all results into one file, and removes the others. Throws InputError where a process still works; no
-  /// result is lost then.
+  /// Puts all results into one file, and removes the others. Throws InputError where a process still works, or merges
+  /// them, too; no result is lost then.
   CampaignState merge() const;
 
   /// All items that are done, in their order: item, values, results, failure. The values of a diagnosis are the set and

@@ -11,6 +11,7 @@
 
 namespace {
 
+namespace fs = std::filesystem;
 using namespace rollrig::tests;
 using rollrig::Json;
 
@@ -52,6 +53,26 @@ TEST_CASE("a campaign of a grid has the numbers of a sweep", "[fast]") {
   run_to_end("campaign export c --csv merged.csv --mat c.mat --hdf5 c.h5", at);
   CHECK(read_file(at.file("merged.csv")) == read_file(at.file("c.csv")));
   CHECK_THAT(run_to_end("campaign run c", at), Catch::Contains("6 of 6 items done"));
+}
+
+TEST_CASE("of two merges at once, the second one says that the first one is at work", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end("campaign new c " + std::string(kRun) + " --vary pressure_kPa=210:250:10", at);
+  for (const char* part : {"1/2", "2/2"}) run_to_end(std::string("campaign run c --shard ") + part, at);
+  run_to_end("campaign export c --csv before.csv", at);
+  const ProgramResult second = run_program("campaign merge c", at.path(), "flock c");  // what the first one does
+  CHECK(second.status == 2);
+  CHECK_THAT(flatten(second.err), Catch::StartsWith("error: another process merges the results of this campaign now"));
+  CHECK(fs::exists(at.file("c/results_0001_of_0002.sqlite")));
+  // At once, whichever comes first: both are done, or one is told to wait.
+  const ProgramResult both = run_program("campaign merge c & first=$!; '" ROLLRIG_PROGRAM
+                                         "' campaign merge c; second=$?; wait $first; test $? -eq 0 -o $second -eq 0",
+                                         at.path());
+  INFO(both.err);
+  CHECK(both.status == 0);
+  CHECK_THAT(both.err, !Catch::Contains("database") && !Catch::Contains("cannot"));
+  run_to_end("campaign export c --csv after.csv", at);
+  CHECK(read_file(at.file("after.csv")) == read_file(at.file("before.csv")));
 }
 
 TEST_CASE("a campaign that is killed goes on, with the same results", "[slow]") {
