@@ -2,6 +2,7 @@
 // writes.
 #include <rollrig/rollrig.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -229,7 +230,7 @@ TEST_CASE("a diagnosis and a fit give what the command line writes", "[slow]") {
 
 TEST_CASE("docs show programs as they are compiled", "[fast]") {
   const std::string api = read_file(ROLLRIG_SOURCE_DIR "/docs/api.md");
-  for (const char* example : {"examples/diagnose.cpp", "examples/sweep.cpp"}) {
+  for (const char* example : {"examples/campaign.cpp", "examples/diagnose.cpp", "examples/sweep.cpp"}) {
     const std::string source = read_file(ROLLRIG_SOURCE_DIR + ("/" + std::string(example)));
     CHECK_THAT(api, Contains("```cpp\n" + source.substr(source.find("#include")) + "```\n"));
   }
@@ -237,6 +238,24 @@ TEST_CASE("docs show programs as they are compiled", "[fast]") {
   const std::string install = read_file(ROLLRIG_SOURCE_DIR "/docs/install.md");
   CHECK_THAT(install, Contains("```cpp\n" + program.substr(program.find("#include")) + "```\n"));
 }
+
+#ifdef ROLLRIG_EXAMPLE_CAMPAIGN
+TEST_CASE("the example campaign is shared by two processes, and a third one writes all rows", "[fast]") {
+  const TemporaryFolder folder;
+  for (const char* rank : {"0", "1"}) {
+    const auto part = run_other(ROLLRIG_EXAMPLE_CAMPAIGN, "spread a50", folder.path(),
+                                "env OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=" + std::string(rank));
+    INFO(part.err);
+    REQUIRE(part.status == 0);
+    CHECK(part.out == "25 of 25 items done, 0 failed\n");
+  }
+  CHECK(run_other(ROLLRIG_EXAMPLE_CAMPAIGN, "spread a50", folder.path()).out == "50 of 50 items done, 0 failed\n");
+  const std::string table = read_file(folder.file("spread/spread.csv"));
+  CHECK(std::count(table.begin(), table.end(), '\n') == 51);
+  CHECK_THAT(table, Contains("tire.") && Contains("rrc_N_per_kN"));
+  CHECK(run_other(ROLLRIG_EXAMPLE_CAMPAIGN, "other a5O", folder.path()).status == 2);
+}
+#endif
 
 #ifdef ROLLRIG_EXAMPLE_SWEEP
 TEST_CASE("the example sweep prints a row a pressure, falling", "[fast]") {
