@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 namespace rollrig {
 namespace {
 
-constexpr const char* kCampaignFormat = "rollrig-campaign/1";
+constexpr const char* kCampaignFormat = "rollrig-item-campaign/1";
+constexpr const char* kFirstCampaignFormat = "rollrig-campaign/1";  // now of a plan alone; still read
 
 /// The members of RunInput by the keys of campaign.json.
 template <class Run, class Visit>
@@ -248,7 +249,7 @@ CampaignDefinition CampaignDefinition::read(const std::string& content, const st
   const Json json = parse_json(content, path);
   CampaignDefinition definition;
   try {
-    if (json.at("format") != kCampaignFormat) {
+    if (json.at("format") != kCampaignFormat && json.at("format") != kFirstCampaignFormat) {
       throw InputError({"this is no campaign of this version of rollrig", path, 0, "format", json.at("format").dump(),
                         kCampaignFormat, ""});
     }

@@ -29,7 +29,7 @@ struct CampaignDefinition {
 
   std::uint64_t seed() const { return diagnosis.has_value() ? 1 : design.seed; }  // a diagnosis draws nothing by it
 
-  /// The content of campaign.json (rollrig-campaign/1).
+  /// The content of campaign.json (rollrig-item-campaign/1).
   std::string to_text() const;
   /// Throws InputError: `content` is not what to_text() writes. `path` is for messages.
   static CampaignDefinition read(const std::string& content, const std::string& path);

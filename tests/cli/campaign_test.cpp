@@ -110,6 +110,20 @@ TEST_CASE("a campaign of which something has changed is refused", "[fast]") {
   run_to_end("campaign run c", at);
 }
 
+TEST_CASE("a campaign that was begun when its format had another name goes on", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end("campaign new c " + std::string(kRun) + " --vary pressure_kPa=210,250", at);
+  std::string definition = read_file(at.file("c/campaign.json"));
+  const std::string name = "rollrig-item-campaign/1";
+  REQUIRE(definition.find(name) != std::string::npos);
+  write_file(at.file("c/campaign.json"), definition.replace(definition.find(name), name.size(), "rollrig-campaign/1"));
+  run_to_end("campaign run c --shard 1/2", at);
+  run_to_end("campaign run c --shard 2/2", at);
+  run_to_end("campaign merge c", at);
+  CHECK_THAT(run_to_end("campaign status c", at), Catch::Contains("2 of 2 items done"));
+  run_to_end("campaign export c --csv c.csv", at);
+}
+
 TEST_CASE("traces of a campaign are watched and found from any folder", "[fast]") {
   const TemporaryFolder at;
   for (const char* name : {"a.csv", "b.csv", "c.csv"}) {
