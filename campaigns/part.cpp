@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/core/error.h"
@@ -13,6 +15,21 @@ namespace {
 constexpr double kMostParts = 1e6;  // Assumed
 
 bool is_count(double number) { return number >= 0.0 && number <= 1e15 && number == std::floor(number); }
+
+/// What starts several processes of a program, and the variables by which it tells each process its number, from 0,
+/// and how many there are.
+struct Launcher {
+  const char* rank;
+  const char* size;  // null where the environment does not say it
+  bool is_for_mpi;   // its processes can talk to each other over MPI
+};
+
+constexpr std::array<Launcher, 4> kLaunchers{{
+    {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", true},  // mpirun of Open MPI
+    {"PMI_RANK", "PMI_SIZE", true},                          // mpirun of MPICH; srun --mpi=pmi2
+    {"PMIX_RANK", nullptr, true},                            // srun --mpi=pmix, of which the next line says the size
+    {"SLURM_PROCID", "SLURM_STEP_NUM_TASKS", false},         // the latter is set by srun alone
+}};
 
 /// A variable's whole number, none where it is not set. Grid Engine sets those of a job without an array to
 /// "undefined".
@@ -82,21 +99,23 @@ Part read_part(const std::string& text) {
 // mpirun and srun stand before the batch job's own variables, which are also there in a job's script, where a program
 // runs once.
 std::optional<Part> find_process_part(const Environment& environment) {
-  struct Launcher {
-    const char* rank;
-    const char* size;
-  };
-  for (const Launcher& launcher :
-       {Launcher{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, Launcher{"PMI_RANK", "PMI_SIZE"}}) {
+  for (const Launcher& launcher : kLaunchers) {
+    if (launcher.size == nullptr) continue;
     const auto rank = read_count(environment, launcher.rank);
     if (!rank.has_value()) continue;
-    return make_part(launcher.rank, *rank + 1, require_count(environment, launcher.size, launcher.rank));
+    const std::optional<std::size_t> size = launcher.is_for_mpi
+                                                ? require_count(environment, launcher.size, launcher.rank)
+                                                : read_count(environment, launcher.size);
+    if (size.has_value()) return make_part(launcher.rank, *rank + 1, *size);
   }
-  // srun alone sets SLURM_STEP_NUM_TASKS to the number of processes that it has started.
-  const auto rank = read_count(environment, "SLURM_PROCID");
-  const auto size = read_count(environment, "SLURM_STEP_NUM_TASKS");
-  if (rank.has_value() && size.has_value()) return make_part("SLURM_PROCID", *rank + 1, *size);
   return std::nullopt;
+}
+
+bool is_started_for_mpi(const Environment& environment) {
+  const auto has_rank = [&environment](const Launcher& launcher) {
+    return launcher.is_for_mpi && environment(launcher.rank) != nullptr;
+  };
+  return std::any_of(kLaunchers.begin(), kLaunchers.end(), has_rank);
 }
 
 std::optional<Part> find_part(const Environment& environment) {

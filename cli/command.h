@@ -23,9 +23,10 @@ enum ExitStatus { kDone = 0, kDiffers = 1, kInputError = 2, kRunFailed = 3, kInt
 /// What a subcommand does when it is called; set by the add_..._command functions below.
 using Action = std::function<int()>;
 
-/// Calls what makes a program's command line and runs it. Returns the exit status; errors go to standard error. `argc`
-/// and `argv` are for the report of a mistake of the program itself.
-int run_program(int argc, char** argv, const std::function<int()>& body);
+/// What main() of a program does: calls `make_and_run`, which makes its command line and runs it. Returns the exit
+/// status; errors go to standard error. `end_others` is called with a status that is not kDone.
+int run_program(int argc, char** argv, int (*make_and_run)(int argc, char** argv),
+                void (*end_others)(int status) = nullptr);
 
 /// Reads the command line and does what its subcommand has set in `action`.
 int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/message.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "rollrig/item_campaign.h"
@@ -142,7 +143,7 @@ int campaign_run_command(const CampaignRunOptions& options) {
                           options.has_program_progress ? ProgressReader::kProgram : ProgressReader::kPerson);
     state = campaign.carry_out(part, options.threads, progress.callback());
   } catch (const Interrupted&) {
-    std::cerr << wrap("stopped: what was done is kept; the same command goes on", 2).substr(2);
+    std::cerr << wrap_message("stopped: what was done is kept; the same command goes on");
     return kInterrupted;
   }
   output.show(state);

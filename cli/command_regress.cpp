@@ -5,10 +5,10 @@
 #include <iostream>
 
 #include "cli/command.h"
+#include "cli/message.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "rollrig/regress.h"
-#include "sim/core/text.h"
 
 namespace rollrig::cli {
 namespace {
@@ -33,10 +33,9 @@ int find_status(const std::vector<RegressedRun>& runs) {
 void tell_problems(const Regression& found) {
   for (const RegressedRun& run : found.runs) {
     if (run.problems.empty() || run.status == "updated") continue;
-    std::cerr << wrap(fmt::format("error: {}: {}: {}", (std::filesystem::path(found.folder) / run.name).string(),
-                                  run.status, run.problems.front()),
-                      2)
-                     .substr(2);
+    std::cerr << wrap_message(fmt::format("error: {}: {}: {}",
+                                          (std::filesystem::path(found.folder) / run.name).string(), run.status,
+                                          run.problems.front()));
     if (run.problems.size() > 1) std::cerr << fmt::format("  and {} more\n", run.problems.size() - 1);
   }
 }

@@ -5,10 +5,10 @@
 #include <iostream>
 
 #include "cli/command.h"
+#include "cli/message.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "rollrig/sweep.h"
-#include "sim/core/text.h"
 
 namespace fs = std::filesystem;
 
@@ -40,12 +40,10 @@ int sweep_command(const SweepOptions& options) {
   if (!options.output.folder.empty()) {
     input.kept_in = place_unfinished(options.output.folder);
     if (input.kept_in.empty() && !options.output.quiet) {
-      std::cerr << wrap(fmt::format(
-                            "warning: nothing is kept if the sweep is interrupted, since the folder of {} cannot "
-                            "be written to",
-                            options.output.folder),
-                        2)
-                       .substr(2);
+      std::cerr << wrap_message(
+          fmt::format("warning: nothing is kept if the sweep is interrupted, since the folder of {} cannot "
+                      "be written to",
+                      options.output.folder));
     }
   }
   const Sweep sweep(input);
@@ -56,8 +54,8 @@ int sweep_command(const SweepOptions& options) {
     result = sweep.carry_out(progress.callback());
   } catch (const Interrupted&) {
     if (input.kept_in.empty()) throw;
-    std::cerr << wrap(fmt::format("stopped: what was done is kept in {}; the same command goes on", input.kept_in), 2)
-                     .substr(2);
+    std::cerr << wrap_message(
+        fmt::format("stopped: what was done is kept in {}; the same command goes on", input.kept_in));
     return kInterrupted;
   }
   output.show(result);
@@ -65,10 +63,8 @@ int sweep_command(const SweepOptions& options) {
   const std::size_t failed = result.count_failures();
   if (failed == 0) return kDone;
   std::cout << std::flush;
-  std::cerr << wrap(fmt::format("run failed: {} of {} points of the sweep; the other points are complete", failed,
-                                result.points.size()),
-                    2)
-                   .substr(2);
+  std::cerr << wrap_message(fmt::format("run failed: {} of {} points of the sweep; the other points are complete",
+                                        failed, result.points.size()));
   return kRunFailed;
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "cli/command.h"
+#include "cli/message.h"
 #include "cli/output_files.h"
 #include "rollrig/measurement_set.h"
 #include "sim/core/error.h"
@@ -38,7 +39,7 @@ int validate_command(const ValidateOptions& options) {
     throw_if_interrupted();
     try {
       const FileCheck found = check_file(path, options.bad_rows);
-      std::cout << wrap(fmt::format("{}: {} {}", path, found.is_good ? "good" : "doubtful", found.what), 2).substr(2);
+      std::cout << wrap_message(fmt::format("{}: {} {}", path, found.is_good ? "good" : "doubtful", found.what));
       for (const std::string& warning : found.warnings) std::cout << wrap(warning, 2);
       if (!found.is_good) status = std::max<int>(status, kDiffers);
     } catch (const InputError& error) {  // of one file: the others are checked as well

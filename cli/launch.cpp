@@ -6,8 +6,8 @@
 #include <string>
 
 #include "cli/command.h"
+#include "cli/message.h"
 #include "rollrig/item_campaign.h"
-#include "sim/core/text.h"
 
 namespace rollrig::cli {
 
@@ -31,11 +31,10 @@ void require_one_process(const std::string& command, const std::string& instead,
                       command, "", "one process" + (instead.empty() ? "" : "; to share the work, " + instead));
   }
   if (quiet || instead.empty() || !is_array_task()) return;
-  std::cerr << wrap(fmt::format("warning: this is a task of a job array. {} does all of its work in each task; to "
-                                "share it, {}",
-                                command, instead),
-                    2)
-                   .substr(2);
+  std::cerr << wrap_message(
+      fmt::format("warning: this is a task of a job array. {} does all of its work in each task; to "
+                  "share it, {}",
+                  command, instead));
 }
 
 }  // namespace rollrig::cli

@@ -136,6 +136,4 @@ int make_and_run(int argc, char** argv) {
 }  // namespace
 }  // namespace rollrig::cli
 
-int main(int argc, char** argv) {
-  return rollrig::cli::run_program(argc, argv, [argc, argv] { return rollrig::cli::make_and_run(argc, argv); });
-}
+int main(int argc, char** argv) { return rollrig::cli::run_program(argc, argv, &rollrig::cli::make_and_run); }

@@ -7,9 +7,9 @@
 #include <iostream>
 
 #include "cli/command.h"
+#include "cli/message.h"
 #include "rollrig/measurement_set.h"
 #include "sim/core/interrupt.h"
-#include "sim/core/text.h"
 
 namespace fs = std::filesystem;
 
@@ -149,10 +149,8 @@ void commit_all(std::vector<StagedOutput>& files, const std::vector<OutputFolder
 void warn_of_undescribed(const std::string& folder) {
   const std::vector<std::string> left_out = find_undescribed_folders(folder);
   if (left_out.empty()) return;
-  std::cerr << wrap(fmt::format("warning: left out, since they have CSV files and no set.toml: {}",
-                                fmt::join(left_out, ", ")),
-                    2)
-                   .substr(2);
+  std::cerr << wrap_message(
+      fmt::format("warning: left out, since they have CSV files and no set.toml: {}", fmt::join(left_out, ", ")));
 }
 
 }  // namespace rollrig::cli

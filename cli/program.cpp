@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/message.h"
 #include "rollrig/progress.h"
 #include "rollrig/version.h"
 #include "sim/core/error.h"
@@ -115,7 +116,7 @@ int report(const char* kind, const std::string& what, int status) {
   std::istringstream text(std::string(kind) + ": " + what);
   for (std::string line; std::getline(text, line);) {
     // Lines that fit are as they should be: those of a list of terms, say.
-    std::cerr << (count_characters(line) <= 80 ? line + "\n" : wrap(line, 2).substr(2));
+    std::cerr << (count_characters(line) <= 80 ? line + "\n" : wrap_message(line));
   }
   return status;
 }
@@ -128,7 +129,7 @@ int report_internal_error(const std::string& what, int argc, char** argv) {
     command +=
         (i == 0 ? "" : " ") + (i == 0 ? std::filesystem::path(argv[0]).filename().string() : quote_for_shell(argv[i]));
   }
-  std::cerr << wrap("internal error: " + what, 2).substr(2)
+  std::cerr << wrap_message("internal error: " + what)
             << wrap(
                    "This is a mistake in rollrig, not in what you gave. No file is left half-written. Please report it "
                    "to the rollrig developers where you got rollrig, with these lines and the files that the command "
@@ -180,18 +181,12 @@ void require_utf8(int argc, char** argv) {
   }
 }
 
-}  // namespace
-
-int run_program(int argc, char** argv, const std::function<int()>& body) {
-  open_closed_streams();
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone costs no files
-  keep_freed_memory();
-  install_interrupt_handler();
-  set_up_log();
+/// Calls `make_and_run`. What it throws becomes a message and an exit status.
+int answer_errors(int argc, char** argv, int (*make_and_run)(int argc, char** argv)) {
   const VisibleText out(std::cout);
   const VisibleText err(std::cerr);
   try {
-    return body();
+    return make_and_run(argc, argv);
   } catch (const InputError& error) {
     return report("error", error.problem(), kInputError);
   } catch (const RunFailure& error) {
@@ -207,6 +202,19 @@ int run_program(int argc, char** argv, const std::function<int()>& body) {
   } catch (...) {
     return report_internal_error("of unknown kind", argc, argv);
   }
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, int (*make_and_run)(int argc, char** argv), void (*end_others)(int status)) {
+  open_closed_streams();
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone costs no files
+  keep_freed_memory();
+  install_interrupt_handler();
+  set_up_log();
+  const int status = answer_errors(argc, argv, make_and_run);
+  if (status != kDone && end_others != nullptr) end_others(status);
+  return status;
 }
 
 int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {

@@ -4,6 +4,8 @@
 #include <exception>
 #include <thread>
 
+#include "campaigns/part.h"
+
 #ifdef ROLLRIG_MPI
 #include <mpi.h>
 
@@ -13,20 +15,9 @@
 namespace rollrig::campaigns {
 
 #ifdef ROLLRIG_MPI
-namespace {
-
-/// Whether a launcher of Open MPI, MPICH or SLURM started this process: alone it needs no MPI.
-bool is_launched() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"}) {
-    if (std::getenv(name) != nullptr) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
 Ranks::Ranks() : exceptions_(std::uncaught_exceptions()) {
-  if (!is_launched()) return;
+  // Alone, a process needs no MPI.
+  if (!is_started_for_mpi([](const char* name) -> const char* { return std::getenv(name); })) return;
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   started_ = true;

@@ -55,6 +55,25 @@ TEST_CASE("a process that was started by itself has no part", "[fast]") {
   CHECK(!find_in({{"SLURM_PROCID", "0"}, {"SLURM_NTASKS", "4"}}).has_value());
 }
 
+TEST_CASE("a process may use MPI where a launcher of MPI has started it", "[fast]") {
+  const auto is_mpi = [](const Variables& variables) {
+    return rollrig::campaigns::is_started_for_mpi([&variables](const char* name) -> const char* {
+      const auto found = variables.find(name);
+      return found == variables.end() ? nullptr : found->second.c_str();
+    });
+  };
+  CHECK(is_mpi({{"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "2"}}));
+  CHECK(is_mpi({{"PMI_RANK", "1"}, {"PMI_SIZE", "2"}}));
+  CHECK(!is_mpi({}));
+  CHECK(!is_mpi({{"SLURM_PROCID", "0"}, {"SLURM_STEP_NUM_TASKS", "2"}}));
+  // srun --mpi=pmix says how many processes there are in its own variable alone.
+  const Variables pmix{{"PMIX_RANK", "1"}, {"SLURM_PROCID", "1"}, {"SLURM_STEP_NUM_TASKS", "2"}};
+  CHECK(is_mpi(pmix));
+  REQUIRE(find_in(pmix).has_value());
+  CHECK(find_in(pmix)->number == 2);
+  CHECK(find_in(pmix)->count == 2);
+}
+
 TEST_CASE("the tasks of a job array have all items once", "[fast]") {
   std::vector<Part> slurm;
   for (const char* id : {"5", "8", "11", "14"}) {

@@ -7,6 +7,7 @@
 
 #include "campaigns/mpi/ranks.h"
 #include "campaigns/part.h"
+#include "cli/message.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "sim/core/error.h"
@@ -70,7 +71,7 @@ int run_tasks(const campaigns::Ranks& ranks, const RunOptions& options, const st
     if (sums[2] > 0) text += fmt::format("; {} not diagnosed", sums[2]);
     if (ranks.count() > 1) text += fmt::format("; {} processes", ranks.count());
     if (is_stopped) text = "stopped: " + text;
-    (is_stopped ? std::cerr : std::cout) << wrap(text, 2).substr(2);
+    (is_stopped ? std::cerr : std::cout) << cli::wrap_message(text);
     if (is_stopped) std::cerr << "the same command goes on from here\n";
   }
   return is_stopped ? cli::kInterrupted : cli::kDone;

@@ -38,8 +38,6 @@ int make_and_run(int argc, char** argv) {
 }  // namespace rollrig::validation
 
 int main(int argc, char** argv) {
-  const int status =
-      rollrig::cli::run_program(argc, argv, [argc, argv] { return rollrig::validation::make_and_run(argc, argv); });
-  if (status != rollrig::cli::kDone) rollrig::campaigns::end_other_processes(status);
-  return status;
+  return rollrig::cli::run_program(argc, argv, &rollrig::validation::make_and_run,
+                                   &rollrig::campaigns::end_other_processes);
 }
