@@ -59,11 +59,14 @@ void check_conversion(const ConversionInput& input) {
   const Given air{"--from-ambient", from.ambient_K}, to_air{"--to-ambient", to.ambient_K};
   const Given load{"--load", from.load_N}, to_load{"--to-load", to.load_N};
   const Range air_K = between(-60.0 + kZeroCelsius_K, 80.0 + kZeroCelsius_K);
-  require_in_range(positive(), "force_N", "a number > 0 in N", {{"--force", input.loss.force_N}, load, to_load});
-  require_in_range(positive(), "rrc", "a number > 0 in N/kN", {{"--rrc", input.loss.rrc_N_per_kN}});
-  require_in_range(positive(), "diameter_m", "a number > 0 in m", {tire, to_tire});
-  require_in_range(non_negative(), "curvature_per_m", "a curvature >= 0 in 1/m", {drum, to_drum});
-  require_in_range(positive(), "pressure_kPa", "a number > 0 in kPa, gauge", {pressure, to_pressure});
+  // Assumed: far beyond all that is built, as the limits of tire and rig files, so that no factor overflows.
+  require_in_range(between(1e-3, 1e6), "force_N", "0.001 to 1000000 N", {{"--force", input.loss.force_N}});
+  require_in_range(between(1.0, 1e6), "load_N", "1 to 1000000 N", {load, to_load});
+  require_in_range(between(1e-3, 1e3), "rrc", "0.001 to 1000 N/kN", {{"--rrc", input.loss.rrc_N_per_kN}});
+  require_in_range(between(0.1, 10.0), "diameter_m", "0.1 to 10 m", {tire, to_tire});
+  require_in_range(between(0.0, 20.0), "curvature_per_m", "0 to 20 1/m: a diameter of 0.1 m or more, or flat",
+                   {drum, to_drum});
+  require_in_range(between(1e3, 1e7), "pressure_kPa", "1 to 10000 kPa, gauge", {pressure, to_pressure});
   require_in_range(air_K, "ambient_degC", "a number >= -60 and <= 80 in degC", {air, to_air});
   require_in_range(between(-1.0, 3.0), "exponent", "-1 to 3", {{"--pressure-exponent", input.pressure_exponent}});
   require_in_range(between(0.0, 3.0), "exponent", "0 to 3",

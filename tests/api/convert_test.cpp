@@ -118,6 +118,20 @@ TEST_CASE("a conversion that has no sense is refused, and the option is named", 
   CHECK(refused([](auto& input) { input.from.tire_diameter_m.reset(); }) == "--tire-diameter");
   CHECK(refused([](auto& input) { input.load_exponent = -1.0; }) == "--load-exponent");
   CHECK(refused([](auto& input) { input.ambient_coefficient_per_K = 0.8; }) == "--ambient-coefficient");
+  // Numbers whose factors or products would overflow.
+  for (const double extreme : {1e-300, 1e300}) {
+    CHECK(refused([=](auto& input) { input.loss.force_N = extreme; }) == "--force");
+    CHECK(refused([=](auto& input) { input.loss = {{}, extreme}; }) == "--rrc");
+    CHECK(refused([=](auto& input) { input.from.load_N = extreme; }) == "--load");
+    CHECK(refused([=](auto& input) { input.to.load_N = extreme; }) == "--to-load");
+    CHECK(refused([=](auto& input) { input.from.pressure_Pa = extreme; }) == "--from-pressure");
+    CHECK(refused([=](auto& input) { input.to.tire_diameter_m = extreme; }) == "--to-tire-diameter");
+  }
+  CHECK(refused([](auto& input) { input.from.drum_curvature_per_m = 1e300; }) == "--from-drum");
+  const auto overflow = run_program("convert --force 1e308 --from-pressure 250 --to-pressure 1e-300");
+  CHECK(overflow.status == 2);
+  CHECK(overflow.out.empty());
+  CHECK(overflow.err.find("--force") != std::string::npos);
   ConversionInput unknown = make_conversion();
   unknown.tire = "a5O";
   CHECK_THROWS_AS(convert_loss(unknown), rollrig::InputError);
