@@ -127,18 +127,17 @@ void Output::finish(const std::string& text, const std::string& notes) {
 }
 
 void Output::commit(const std::string& text) {
-  throw_if_interrupted();
-  if (!options_.is_silent()) {
-    std::cout << text;
-    flush_standard_output();
-  }
-  commit_all(staged_files_, staged_folders_);
+  commit_all(staged_files_, staged_folders_, options_.is_silent() ? "" : text);
 }
 
-void commit_all(std::vector<StagedOutput>& files, const std::vector<OutputFolder*>& folders) {
+void commit_all(std::vector<StagedOutput>& files, const std::vector<OutputFolder*>& folders, const std::string& text) {
   throw_if_interrupted();
   for (StagedOutput& file : files) {
     if (file.is_direct()) file.commit();
+  }
+  if (!text.empty()) {
+    std::cout << text;
+    flush_standard_output();
   }
   for (OutputFolder* folder : folders) folder->commit();
   for (StagedOutput& file : files) {

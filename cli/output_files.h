@@ -72,8 +72,8 @@ class Output {
   void stage(const Report& report);
   /// Stages files of a further folder, which must outlive this.
   void stage(OutputFolder& folder, const FolderFiles& files);
-  /// Prints `text`, puts all that is staged in its place, and prints where that is, then `notes`; where is_silent(),
-  /// nothing is printed. Throws Interrupted before the first is put there, InputError.
+  /// Puts all that is staged in its place, prints `text` as commit_all() does, where the files are, and `notes`; where
+  /// is_silent(), nothing is printed. Throws Interrupted before the first is put there, InputError.
   void finish(const std::string& text, const std::string& notes = "");
   /// The same without a word on where it is, which is the caller's to say.
   void commit(const std::string& text);
@@ -92,10 +92,11 @@ class Output {
   std::vector<StagedOutput> staged_files_;
 };
 
-/// Puts files and folders in their places. First comes what goes to standard output or a device, which may be full,
-/// then the folders, whose names another program may have taken meanwhile. Throws Interrupted before all of them,
-/// InputError.
-void commit_all(std::vector<StagedOutput>& files, const std::vector<OutputFolder*>& folders = {});
+/// Puts files and folders in their places, and prints `text`. First comes what goes to a device, which may be full,
+/// then what goes to standard output, so that no result is told which cannot be written; then the folders, whose names
+/// another program may have taken meanwhile. Throws Interrupted before all of them, InputError.
+void commit_all(std::vector<StagedOutput>& files, const std::vector<OutputFolder*>& folders = {},
+                const std::string& text = "");
 
 /// On standard error, folders in a folder of sets that hold CSV files but no set.toml.
 void warn_of_undescribed(const std::string& folder);

@@ -70,6 +70,18 @@ TEST_CASE("standard output that is closed or full costs no half result", "[fast]
   }
 }
 
+TEST_CASE("a result that cannot be written to a device is not told", "[fast]") {
+  for (const char* option : {" --json /dev/full", " --html /dev/full"}) {
+    const TemporaryFolder folder;
+    const auto run = run_program(std::string("run skim --tire a50 --out out") + option, folder.path());
+    INFO(option << "\n" << run.err);
+    CHECK(run.status == 2);
+    CHECK_THAT(run.err, Contains("/dev/full"));
+    CHECK(run.out.empty());
+    CHECK(folder.entry_count() == 0);
+  }
+}
+
 TEST_CASE("a reader that goes takes no file away, and nothing is said", "[fast]") {
   const TemporaryFolder folder;
   const auto run = run_program(std::string(kEverything) + " | true", folder.path());
