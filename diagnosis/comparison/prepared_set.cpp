@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include "diagnosis/kinds/measurement_kind.h"
 #include "measurements/sample_selection.h"
@@ -69,11 +72,31 @@ std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::
 
 }  // namespace
 
+double find_least_noise(const Quantity& channel) {
+  // Assumed: a thousandth of the noise of the usual sensors (assets/sensors); of a speed likewise.
+  static const std::map<std::string_view, double> kLeast{
+      {"N", 2.5e-4}, {"Nm", 2.5e-4}, {"degC", 1e-4}, {"kPa", 5e-5}, {"km_h", 1e-5}};
+  const auto least = kLeast.find(channel.unit_suffix());
+  return least != kLeast.end() ? least->second : 0.0;
+}
+
 void require_noise(const measurements::MeasurementSet& set, const Quantity& channel) {
   const models::SensorParameters& sensor = set.sensors.at(channel);
-  if (sensor.noise_sd > 0.0 || sensor.drift_sd > 0.0 || sensor.resolution > 0.0) return;
-  throw InputError({"a sensor has no noise at all, so that nothing would be within it", set.path, 0,
-                    "[sensors." + channel.header() + "]", "0", "noise_sd, drift_sd or resolution above 0", ""});
+  const double rounding_sd = sensor.resolution / std::sqrt(12.0);
+  const double noise = std::hypot(sensor.noise_sd, sensor.drift_sd, rounding_sd) / channel.file_unit().factor;
+  const double least = find_least_noise(channel);
+  const std::string key = "[sensors." + channel.header() + "]";
+  if (noise <= 0.0) {
+    throw InputError({"a sensor has no noise at all, so that nothing would be within it", set.path, 0, key, "0",
+                      "noise_sd, drift_sd or resolution above 0", ""});
+  }
+  if (noise >= least) return;
+  throw InputError({"a sensor has less noise than any that is built, so that nothing would be within it", set.path, 0,
+                    key, fmt::format("{:.3g}", noise),
+                    fmt::format("noise_sd, drift_sd and resolution such that a sample has a standard deviation of {:g} "
+                                "{} or more",
+                                least, channel.file_unit().symbol),
+                    ""});
 }
 
 PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings extra)

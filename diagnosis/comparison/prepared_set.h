@@ -58,7 +58,10 @@ struct ExtraReadings {
   std::vector<Quantity> sensors;     // channels of sensors that the rig does not have (rig_sensors.h)
 };
 
-/// Throws InputError where the sensor of a channel has no noise at all.
+/// The least standard deviation of a sample that is believed, in the unit of files.
+double find_least_noise(const Quantity& channel);
+
+/// Throws InputError where the sensor of a channel has less noise, drift and rounding together than that.
 void require_noise(const measurements::MeasurementSet& set, const Quantity& channel);
 
 /// Runs are put in the order of their ids, so that the order in the file does not matter. A block ends at the end of a

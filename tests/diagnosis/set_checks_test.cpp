@@ -8,6 +8,7 @@
 #include <random>
 
 #include "diagnosis/checks/sample_checks.h"
+#include "diagnosis/comparison/prepared_set.h"
 #include "sim/core/assets.h"
 #include "tests/diagnosis/checked_sets.h"
 #include "tests/support/drum_fixture.h"
@@ -181,6 +182,21 @@ TEST_CASE("a drum set with noise is asked for", "[fast]") {
   MeasurementSet set = short_set();
   set.sensors.at("drum_torque_Nm") = {};
   CHECK_THROWS_WITH(check_set(set), Contains("no noise at all") && Contains("[sensors.drum_torque_Nm]"));
+  for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}) {
+    INFO(channel);
+    set = short_set();
+    set.sensors.at(channel) = {1.0, 0.0, 60.0, 1e-300, 0.0};
+    CHECK_THROWS_WITH(check_set(set), Contains("less noise than any") && Contains(channel));
+    set.sensors.at(channel).drift_sd = 1.0;  // a sample then scatters by that
+    CHECK_NOTHROW(check_set(set));
+  }
+  // What is just believed gives finite numbers; a finer one is refused.
+  const Quantity torque = intern_quantity("drum_torque_Nm");
+  set = short_set();
+  set.sensors.at(torque) = {0.5, 0.0, 60.0, diagnosis::find_least_noise(torque), 0.0};
+  CHECK_NOTHROW(check_set(set));
+  set.sensors.at(torque).noise_sd *= 0.99;
+  CHECK_THROWS_AS(check_set(set), InputError);
   set = short_set();
   set.kind = tests::kRoad;
   CHECK_THROWS_AS(check_set(set), InputError);
