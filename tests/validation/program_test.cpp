@@ -150,6 +150,23 @@ TEST_CASE("processes without MPI answer the cases of their part", "[fast]") {
   CHECK(run_validation("run set --shard 3/2", made.folder.path()).status == 2);
 }
 
+TEST_CASE("a seed is a whole number that is not negative", "[fast]") {
+  const ValidationSetFolder made;
+  for (const char* seed : {"-1", "1.5", "18446744073709551616", "1e3", "''"}) {
+    for (const char* words :
+         {"make --out new --kind drum --singles 1 --pairs 0 --none 0 --outside 0 --seed ",
+          "make-case --kind drum --out new --seed ", "plan set --seed ", "loop set --hours 8 --seed "}) {
+      INFO(words << seed);
+      const auto run = run_validation(words + std::string(seed), made.folder.path());
+      CHECK(run.status == 2);
+      CHECK_THAT(flatten(run.err), Contains("is no seed") && Contains("--seed"));
+    }
+  }
+  CHECK(!fs::exists(made.folder.file("new")));
+  CHECK(run_validation("make-case --kind drum --out new --runs 1 --seed 18446744073709551615", made.folder.path())
+            .status == 0);
+}
+
 TEST_CASE("commands that do not share their work refuse to start as several processes", "[fast]") {
   const ValidationSetFolder made;
   for (const char* words : {"make --out new --kind drum --singles 1 --pairs 0 --none 0 --outside 0", "upper-bound set",

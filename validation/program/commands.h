@@ -1,6 +1,7 @@
 #pragma once
 /// The commands of rollrig_validation. Words that commands and options once had stay accepted, and are not shown.
 
+#include <cstdint>
 #include <string>
 
 #include "cli/command.h"
@@ -24,6 +25,9 @@ constexpr const char* kLeftOutFolder = "answers-left-out";  // likewise: without
 
 /// The validation set that a command is for.
 void add_set_to(CLI::App& command, std::string& set);
+
+/// --seed, a whole number. `seed` has the default, `what` says what it decides.
+void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& what);
 
 /// A place in a validation set, unless another is given.
 std::string place_in(const std::string& set, const std::string& name, const std::string& given = {});

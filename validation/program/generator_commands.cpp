@@ -137,7 +137,7 @@ void add_make_case(CLI::App& app, cli::Action& action) {
   command->add_option("--effect", options->words.effects, "Effect, two as a,b, or none [none]");
   command->add_option("--size", options->words.sizes, "Its size in its own unit, for two a,b [drawn]");
   command->add_option("--form", options->words.forms, "Its functional form, for two a,b [drawn]");
-  command->add_option("--seed", options->order.seed, "Decides all that is drawn [1]");
+  add_seed(*command, options->order.seed, "Decides all that is drawn");
   cli::add_output_option(*command, "--out", options->out, "Folder of the case, new or empty")->required();
   cli::add_output_option(*command, "--truth", options->truth, "File for the truth, outside of the case");
   cli::add_output_option(*command, "--counterfactual", options->counterfactual,
@@ -161,7 +161,7 @@ CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const V
   command->add_option(
       "--kind", order.kind,
       fmt::format("mixed: a campaign drawn for each case; or {} [{}]", fmt::join(machine_words(), ", "), order.kind));
-  command->add_option("--seed", order.seed, "Decides all that is drawn [1]");
+  add_seed(*command, order.seed, "Decides all that is drawn");
   add_count("--singles", order.singles, "Cases of one effect, small, middle and large in turn");
   add_count("--each", order.each, "Cases of each effect");
   add_count("--pairs", order.pairs, "Cases of two effects");

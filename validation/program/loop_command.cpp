@@ -8,6 +8,7 @@
 
 #include "cli/output_files.h"
 #include "cli/progress.h"
+#include "diagnosis/next_test/test_menu.h"
 #include "sim/core/columns.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
@@ -154,7 +155,7 @@ void add_loop_command(CLI::App& app, cli::Action& action) {
   command->add_option("--tests", options->tests,
                       fmt::format("Which tests are done: {} [{}]", fmt::join(kLoopTestsNames, ", "), options->tests));
   command->add_flag("--ideal", options->order.with_ideal, "Also what an ideal observer makes of the same tests");
-  command->add_option("--seed", options->order.seed, "Of failures and drawn tests")->capture_default_str();
+  add_seed(*command, options->order.seed, "Of failures and drawn tests");
   cli::add_output_option(*command, "--json", options->json, "File for all loops, - for standard output");
   cli::add_threads(*command, options->order.threads, "Cases at the same time [as many as the machine has cores]");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");

@@ -1,6 +1,11 @@
 /// rollrig_validation: how well the diagnosis does on cases with a known hidden cause.
+#include <fmt/format.h>
+
+#include <charconv>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <system_error>
 
 #include "campaigns/mpi/ranks.h"
 #include "cli/help_formatter.h"
@@ -10,6 +15,20 @@ namespace rollrig::validation {
 
 void add_set_to(CLI::App& command, std::string& set) {
   command.add_option("set", set, "Folder made by rollrig_validation make")->required();
+}
+
+void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& what) {
+  const auto set = [&seed](const std::string& text) {
+    std::uint64_t number = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || rest != end) {  // CLI11 would take -1 for the largest number
+      throw cli::usage_error(fmt::format("'{}' is no seed", text), "--seed", text,
+                             fmt::format("a whole number from 0 to {}", std::numeric_limits<std::uint64_t>::max()));
+    }
+    seed = number;
+  };
+  command.add_option_function<std::string>("--seed", set, fmt::format("{} [{}]", what, seed));
 }
 
 std::string place_in(const std::string& set, const std::string& name, const std::string& given) {

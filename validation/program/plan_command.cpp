@@ -59,7 +59,7 @@ void add_plan_command(CLI::App& app, cli::Action& action) {
   add_set_to(*command, order.set);
   command->add_option("--answers", order.answers, "Folder of the answers [answers in the validation set]");
   command->add_flag("--drawn", options->drawn, "A test drawn from the menu for each, instead of the proposed one");
-  command->add_option("--seed", order.seed, "Of what is drawn [1]");
+  add_seed(*command, order.seed, "Of what is drawn");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }
 
