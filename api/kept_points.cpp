@@ -31,7 +31,10 @@ KeptPoints::KeptPoints(std::string path, const std::string& definition) : path_(
 }
 
 KeptPoints::~KeptPoints() {
-  if (campaigns::CampaignFolder{path_, "", 0}.list_files().empty()) remove();
+  try {
+    if (lock_->is_in_place() && campaigns::CampaignFolder{path_, "", 0}.list_files().empty()) remove();
+  } catch (const std::exception&) {  // the folder has gone meanwhile, or may not be read: there is nothing to remove
+  }
 }
 
 /// Opens the folder, and makes it if need be. Another process may remove it between these two steps: then once more.

@@ -73,9 +73,9 @@ std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::
 }  // namespace
 
 double find_least_noise(const Quantity& channel) {
-  // Assumed: a thousandth of the noise of the usual sensors (assets/sensors); of a speed likewise.
+  // Assumed: a millionth of the noise of the usual sensors (assets/sensors); of a speed likewise.
   static const std::map<std::string_view, double> kLeast{
-      {"N", 2.5e-4}, {"Nm", 2.5e-4}, {"degC", 1e-4}, {"kPa", 5e-5}, {"km_h", 1e-5}};
+      {"N", 2.5e-7}, {"Nm", 2.5e-7}, {"degC", 1e-7}, {"kPa", 5e-8}, {"km_h", 1e-8}};
   const auto least = kLeast.find(channel.unit_suffix());
   return least != kLeast.end() ? least->second : 0.0;
 }
