@@ -1,0 +1,85 @@
+#include "estimation/uncertainty/budget.h"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace rollrig::estimation {
+namespace {
+
+/// How far each result moves when one input moves by its standard uncertainty, per result.
+std::vector<double> calc_moves(const MeasurementModel& model, std::vector<double> inputs, std::size_t moved) {
+  const double u = model.inputs[moved].standard_uncertainty;
+  if (u == 0.0) return std::vector<double>(model.measurands.size(), 0.0);
+  const double center = inputs[moved];
+  inputs[moved] = center + u;
+  std::vector<double> moves = model.evaluate(inputs);
+  inputs[moved] = center - u;
+  const std::vector<double> below = model.evaluate(inputs);
+  for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = 0.5 * (moves[i] - below[i]);
+  return moves;
+}
+
+/// Adds a line, or, to one of the same name, its variance.
+void add_contribution(const UncertainInput& input, double move, std::vector<Contribution>& lines) {
+  const auto line = std::find_if(lines.begin(), lines.end(),
+                                 [&input](const Contribution& other) { return other.input.name == input.name; });
+  if (line == lines.end()) {
+    const double sensitivity = input.standard_uncertainty == 0.0 ? 0.0 : move / input.standard_uncertainty;
+    lines.push_back({input, sensitivity, std::abs(move), 0.0});
+    return;
+  }
+  line->contribution = std::hypot(line->contribution, move);
+  line->sensitivity = 1.0;
+  line->input.value = 0.0;
+  line->input.standard_uncertainty = line->contribution;
+}
+
+void combine_lines(UncertaintyBudget& budget) {
+  double variance = 0.0;
+  double fourth = 0.0;
+  for (const Contribution& line : budget.contributions) {
+    variance += line.contribution * line.contribution;
+    fourth += std::pow(line.contribution, 4) / line.input.degrees_freedom;
+  }
+  budget.combined = std::sqrt(variance);
+  budget.degrees_freedom = fourth > 0.0 ? variance * variance / fourth : std::numeric_limits<double>::infinity();
+  for (Contribution& line : budget.contributions) {
+    line.share = variance > 0.0 ? line.contribution * line.contribution / variance : 0.0;
+  }
+  budget.coverage_factor = calc_coverage_factor(budget.degrees_freedom);
+  budget.expanded = budget.coverage_factor * budget.combined;
+}
+
+}  // namespace
+
+double calc_coverage_factor(double degrees_freedom) {
+  constexpr double kUpper = 0.5 * (1.0 + kCoverage);
+  constexpr double kMany = 1e6;  // beyond which t is the normal distribution to six digits
+  if (degrees_freedom > kMany) return boost::math::quantile(boost::math::normal(), kUpper);
+  const double whole = std::max(1.0, std::floor(degrees_freedom));
+  return boost::math::quantile(boost::math::students_t(whole), kUpper);
+}
+
+std::vector<UncertaintyBudget> calc_budgets(const MeasurementModel& model) {
+  std::vector<double> inputs;
+  for (const UncertainInput& input : model.inputs) inputs.push_back(input.value);
+  const std::vector<double> values = model.evaluate(inputs);
+  std::vector<UncertaintyBudget> budgets;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    budgets.emplace_back();
+    budgets.back().measurand = model.measurands[i];
+    budgets.back().value = values[i];
+  }
+  for (std::size_t k = 0; k < model.inputs.size(); ++k) {
+    const std::vector<double> moves = calc_moves(model, inputs, k);
+    for (std::size_t i = 0; i < budgets.size(); ++i) {
+      add_contribution(model.inputs[k], moves[i], budgets[i].contributions);
+    }
+  }
+  for (UncertaintyBudget& budget : budgets) combine_lines(budget);
+  return budgets;
+}
+
+}  // namespace rollrig::estimation
