@@ -140,7 +140,7 @@ CampaignState ItemCampaign::merge() const {
   return read_state();
 }
 
-void ItemCampaign::write_csv(const std::function<void(const std::string&)>& take) const {
+void ItemCampaign::write_csv(const std::function<void(const std::string&)>& append) const {
   const ItemFiles files = data_->files();
   const std::unique_ptr<CampaignItems> items = make_items(data_->definition);
   const ItemColumns table = find_item_columns(files, *items);
@@ -159,9 +159,9 @@ void ItemCampaign::write_csv(const std::function<void(const std::string&)>& take
     if (table.has_failures) csv.add(row.failure);
     csv.end_row();
     constexpr std::size_t kAtOnce = 1000;
-    if (++rows % kAtOnce == 0) take(csv.take());
+    if (++rows % kAtOnce == 0) append(csv.take());
   });
-  take(csv.take());
+  append(csv.take());
 }
 
 Export ItemCampaign::make_export() const {
@@ -275,7 +275,7 @@ std::string ItemCampaign::make_slurm_job(std::size_t tasks, const std::string& p
   const std::string folder = fs::absolute(data_->folder.path).lexically_normal().string();
   return fmt::format(
       "#!/bin/sh\n"
-      "# {} items of {} in {} tasks. Submit with sbatch; a task that was killed goes on where it stopped when it is\n"
+      "# {} items of {} in {} tasks. Submit with sbatch; a task that was killed continues where it stopped when it is\n"
       "# started again. Afterwards: rollrig campaign merge\n"
       "#SBATCH --job-name=rollrig\n"
       "#SBATCH --array=1-{}\n"

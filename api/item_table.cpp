@@ -53,7 +53,7 @@ ItemColumns find_item_columns(const ItemFiles& files, CampaignItems& items) {
 }
 
 void visit_item_rows(const ItemFiles& files, const CampaignItems& items, const ItemColumns& columns,
-                     const std::function<void(const ItemRow&)>& take) {
+                     const std::function<void(const ItemRow&)>& visit) {
   campaigns::read_records(files.paths, files.definition, [&](const campaigns::Record& record) {
     if (record.item >= items.count() || !columns.is_known[record.item]) return;
     ItemRow row{record.item, items.calc_values(record.item), {}, {}, record.failure};
@@ -70,7 +70,7 @@ void visit_item_rows(const ItemFiles& files, const CampaignItems& items, const I
         }
       }
     }
-    take(row);
+    visit(row);
   });
 }
 

@@ -38,9 +38,9 @@ struct ItemRow {
 /// does.
 ItemColumns find_item_columns(const ItemFiles& files, CampaignItems& items);
 
-/// Calls `take` for each row in order of the items. Throws InputError likewise.
+/// Calls `visit` for each row in order of the items. Throws InputError likewise.
 void visit_item_rows(const ItemFiles& files, const CampaignItems& items, const ItemColumns& columns,
-                     const std::function<void(const ItemRow&)>& take);
+                     const std::function<void(const ItemRow&)>& visit);
 
 /// All of a table, by columns.
 struct ItemTable {

@@ -62,7 +62,7 @@ CampaignState make_state(const campaigns::Tally& tally, const std::string& of,
                   tally.failed > 0 ? fmt::format(", {} of them failed", tally.failed) : "",
                   running.empty()
                       ? ""
-                      : fmt::format(", {} at work",
+                      : fmt::format(", {} running",
                                     running.size() == 1 ? "1 process" : fmt::format("{} processes", running.size()))),
       0);
   return state;

@@ -72,10 +72,10 @@ std::vector<RegressedRun> carry_out_runs(const std::string& folder, const std::v
   std::vector<std::size_t> all(items.count());
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<RegressedRun> runs(items.count());
-  const auto take = [&](const campaigns::Record& record) {
+  const auto add = [&](const campaigns::Record& record) {
     runs[record.item] = read_comparison(names[record.item], record.result);
   };
-  campaigns::carry_out_each(items, nowhere, all, options.threads, take, [&](double share) {
+  campaigns::carry_out_each(items, nowhere, all, options.threads, add, [&](double share) {
     if (options.progress) options.progress(share, "");
   });
   return runs;

@@ -11,8 +11,8 @@
 #include <boost/algorithm/string/split.hpp>
 
 #include "api/data.h"
-#include "api/kept_points.h"
 #include "api/sweep_items.h"
+#include "api/unfinished_sweep.h"
 #include "campaigns/items.h"
 #include "campaigns/store.h"
 #include "report/list_pages.h"
@@ -30,7 +30,7 @@ namespace rollrig {
 struct Sweep::Data {
   SweepItems items;
   scenarios::RunSpec first;
-  std::unique_ptr<const KeptPoints> kept;  // none: nowhere
+  std::unique_ptr<const UnfinishedSweep> unfinished;  // none: finished points are not saved
 };
 
 namespace {
@@ -66,7 +66,7 @@ void require_few_points(const std::vector<SweepAxis>& axes) {
     for (const SweepAxis& each : axes) counts.push_back(fmt::format("{} of {}", each.values.size(), each.key));
     throw InputError({"too many points in a sweep", "command line", 0, "--vary",
                       fmt::format("{}: every value with every other", fmt::join(counts, ", ")),
-                      fmt::format("at most {} points; rollrig campaign takes more", kMostSweepPoints), ""});
+                      fmt::format("at most {} points; rollrig campaign accepts more", kMostSweepPoints), ""});
   }
 }
 
@@ -221,9 +221,11 @@ Sweep::Sweep(const SweepInput& input) {
   std::vector<std::string> declared;
   for (const scenarios::ResultInfo& info : first.scenario->results) declared.push_back(info.key);
   require_declared(input.shown, declared);
-  std::unique_ptr<const KeptPoints> kept;
-  if (!input.kept_in.empty()) kept = std::make_unique<KeptPoints>(input.kept_in, items.define(first.seed));
-  data_ = std::make_shared<Data>(Data{std::move(items), std::move(first), std::move(kept)});
+  std::unique_ptr<const UnfinishedSweep> unfinished;
+  if (!input.unfinished_folder.empty()) {
+    unfinished = std::make_unique<UnfinishedSweep>(input.unfinished_folder, items.define(first.seed));
+  }
+  data_ = std::make_shared<Data>(Data{std::move(items), std::move(first), std::move(unfinished)});
 }
 
 namespace {
@@ -232,24 +234,25 @@ namespace {
 std::vector<campaigns::Record> carry_out_points(const SweepItems& items, std::uint64_t seed,
                                                 const std::function<void(double)>& advance) {
   const SweepInput& input = items.input();
-  const campaigns::CampaignFolder folder{input.kept_in, items.define(seed), seed};
+  const campaigns::CampaignFolder folder{input.unfinished_folder, items.define(seed), seed};
   std::vector<campaigns::Record> records(items.count());
-  const auto take = [&records](const campaigns::Record& record) { records.at(record.item) = record; };
-  if (input.kept_in.empty() || !is_there(input.kept_in)) {  // after remove_kept(), nothing is kept
+  const auto add = [&records](const campaigns::Record& record) { records.at(record.item) = record; };
+  if (input.unfinished_folder.empty() ||
+      !is_there(input.unfinished_folder)) {  // after remove_unfinished(), nothing is saved
     std::vector<std::size_t> all(items.count());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    campaigns::carry_out_each(items, folder, all, input.threads, take, advance);
+    campaigns::carry_out_each(items, folder, all, input.threads, add, advance);
   } else {
     campaigns::carry_out_items(items, folder, {1, 1}, input.threads, advance);
-    campaigns::read_records(folder.list_files(), folder.definition, take);
+    campaigns::read_records(folder.list_files(), folder.definition, add);
   }
   return records;
 }
 
 }  // namespace
 
-void Sweep::remove_kept() const {
-  if (data_->kept != nullptr) data_->kept->remove();
+void Sweep::remove_unfinished() const {
+  if (data_->unfinished != nullptr) data_->unfinished->remove();
 }
 
 SweepResult Sweep::carry_out(const Progress& progress) const {
@@ -273,7 +276,7 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
   for (const SweepAxis& axis : items.input().axes) sweep.axes.push_back(axis.key);
   sweep.points = items.points();
   if (sweep.count_failures() == records.size()) {
-    remove_kept();
+    remove_unfinished();
     throw RunFailure(
         fmt::format("no point of the sweep could be simulated. {}: {}", name_point(sweep, 0), sweep.failures.front()));
   }

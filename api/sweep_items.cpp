@@ -17,7 +17,7 @@ Json SweepItems::carry_out(std::size_t item, std::uint64_t) const {
   const ReadRecorder recorder;
   const scenarios::RunSpec spec = read(item);
   const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
-  if (!input_.kept_in.empty()) require_known(recorder.list_files());
+  if (!input_.unfinished_folder.empty()) require_known(recorder.list_files());
   return {{"result", outcome.result}, {"manifest", scenarios::make_manifest(spec, outcome)}};
 }
 
@@ -32,7 +32,7 @@ scenarios::RunSpec SweepItems::read(std::size_t item) const {
 void SweepItems::check() {
   const ReadRecorder recorder;
   for (std::size_t item = 0; item < count(); ++item) scenarios::prepare_run(read(item));
-  if (!input_.kept_in.empty()) carry_out_quickly(read(0));
+  if (!input_.unfinished_folder.empty()) carry_out_quickly(read(0));
   files_ = hash_files(recorder.list_files());
   watch_files(files_);
 }

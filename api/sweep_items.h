@@ -26,8 +26,8 @@ class SweepItems : public WatchedItems {
   const SweepInput& input() const { return input_; }
   const std::vector<SweepPoint>& points() const { return points_; }
   scenarios::RunSpec read(std::size_t item) const;
-  /// Reads all points, and watches their files from then on. If points are kept, it also carries out one in the quicker
-  /// fidelity, for the files that are read only then. Throws InputError where one is wrong.
+  /// Reads all points, and watches their files from then on. If finished points are saved, it also carries out one in
+  /// the quicker fidelity, for the files that are read only then. Throws InputError where one is wrong.
   void check();
   /// All that the results depend on, as a text: two sweeps have the same if their results are the same.
   std::string define(std::uint64_t seed) const;

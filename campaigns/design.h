@@ -11,7 +11,7 @@
 namespace rollrig::campaigns {
 
 /// A design has points; an item is what is carried out at one of them. Any item can be asked for without those before
-/// it, so that every split of a campaign has the same items.
+/// it, so that every division of a campaign into parts has the same items.
 class Design {
  public:
   virtual ~Design() = default;

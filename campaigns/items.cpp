@@ -114,14 +114,14 @@ struct DoneItems {
   }
 };
 
-/// Files of other numbers of parts. Other parts of the same number have no items of this one,
-/// and their processes are left alone.
-std::vector<std::string> list_other_splits(const CampaignFolder& folder, const Part& part) {
-  std::set<std::string> same_split;
-  for (std::size_t number = 1; number <= part.count; ++number) same_split.insert(folder.file_of({number, part.count}));
+/// Files of processes that divided the items into another number of parts. Only these files can have items of `part`.
+std::vector<std::string> list_files_of_other_divisions(const CampaignFolder& folder, const Part& part) {
+  std::set<std::string> same_division;
+  for (std::size_t number = 1; number <= part.count; ++number)
+    same_division.insert(folder.file_of({number, part.count}));
   std::vector<std::string> others;
   for (const std::string& file : folder.list_files()) {
-    if (same_split.count(file) == 0) others.push_back(file);
+    if (same_division.count(file) == 0) others.push_back(file);
   }
   return others;
 }
@@ -157,7 +157,7 @@ std::uint64_t calc_item_seed(std::uint64_t campaign_seed, std::size_t item) {
   return std::strtoull(hash.substr(0, 8).c_str(), nullptr, 16) >> 1U;
 }
 
-/// Says once a second what the file has, and takes that away at the end.
+/// Writes once a second how many items the file has, and removes that file at the end.
 class ResultsFile::Progress {
  public:
   explicit Progress(std::string path) : path_(std::move(path)) {}
@@ -191,8 +191,8 @@ ResultsFile::ResultsFile(const std::string& path, const CampaignFolder& folder)
 
 ResultsFile::~ResultsFile() = default;
 
-void ResultsFile::list_items(const std::function<void(std::size_t item, bool has_failed)>& take) const {
-  store_.list_items(take);
+void ResultsFile::list_items(const std::function<void(std::size_t item, bool has_failed)>& visit) const {
+  store_.list_items(visit);
 }
 
 void ResultsFile::write(const Record& record) {
@@ -204,14 +204,14 @@ void ResultsFile::write(const Record& record) {
 void ResultsFile::close() { store_.close(); }
 
 void carry_out_each(const ItemList& list, const CampaignFolder& folder, const std::vector<std::size_t>& items,
-                    int threads, const std::function<void(const Record&)>& take,
+                    int threads, const std::function<void(const Record&)>& visit,
                     const std::function<void(double)>& advance) {
   std::size_t finished = 0;
   std::mutex mutex;
   parallel_for(items.size(), threads, [&](std::size_t i) {
     const Record record = carry_out_one(list, folder, items[i]);
     const std::lock_guard<std::mutex> lock(mutex);
-    take(record);
+    visit(record);
     ++finished;
     if (advance) advance(static_cast<double>(finished) / static_cast<double>(items.size()));
   });
@@ -226,18 +226,18 @@ OpenItems find_open_items(const ItemList& list, const CampaignFolder& folder) {
 Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Part& part, int threads,
                       const std::function<void(double)>& advance) {
   DoneItems done(list.count());
-  for (const std::string& file : list_other_splits(folder, part)) done.try_add(folder, file);
+  for (const std::string& file : list_files_of_other_divisions(folder, part)) done.try_add(folder, file);
   const std::string path = folder.file_of(part);
   Tally tally = done.count(part);
   if (tally.done == tally.items && !is_there(path)) return tally;
   ResultsFile file(path, folder);
   file.list_items([&](std::size_t item, bool has_failed) { done.add(path, item, has_failed); });
   tally = done.count(part);
-  const auto take = [&](const Record& record) {
+  const auto write = [&](const Record& record) {
     file.write(record);
     tally.add(!record.failure.empty());
   };
-  carry_out_each(list, folder, done.list_open(part), threads, take, advance);
+  carry_out_each(list, folder, done.list_open(part), threads, write, advance);
   file.close();
   return tally;
 }

@@ -69,11 +69,11 @@ struct Tally {
   }
 };
 
-/// Carries out some items, without a file. `take` gets each record as soon as it is there, one at a time, in no order;
-/// `advance` is called after it, with the fraction of the items that is done. Throws Interrupted, and InputError as
-/// ItemList does.
+/// Carries out some items, without a file. `visit` is called with each record as soon as it is there, one at a
+/// time, in no order; `advance` is called after it, with the fraction of the items that is done. Throws Interrupted,
+/// and InputError as ItemList does.
 void carry_out_each(const ItemList& list, const CampaignFolder& folder, const std::vector<std::size_t>& items,
-                    int threads, const std::function<void(const Record&)>& take,
+                    int threads, const std::function<void(const Record&)>& visit,
                     const std::function<void(double)>& advance = {});
 
 /// The items that no file of the folder has, and how many there are that one has. Throws InputError where a process
@@ -94,9 +94,10 @@ class ResultsFile {
   ResultsFile& operator=(const ResultsFile&) = delete;
 
   /// What it has from an earlier session.
-  void list_items(const std::function<void(std::size_t item, bool has_failed)>& take) const;
+  void list_items(const std::function<void(std::size_t item, bool has_failed)>& visit) const;
   void write(const Record& record);
-  /// Takes the log into the file, which then stands alone. Throws InputError where that cannot be.
+  /// Writes the content of the log into the file, which is then complete without it. Throws InputError where that
+  /// cannot be.
   void close();
 
  private:

@@ -61,14 +61,14 @@ SQLite::Database open_alone(const std::string& path, int flags, int patience_ms 
   return database;
 }
 
-/// Takes the log of a file into it.
-void take_log_in(SQLite::Database& database) { database.exec("PRAGMA journal_mode = DELETE"); }
+/// Writes the content of the log of a file into the file, and removes the log.
+void checkpoint_log(SQLite::Database& database) { database.exec("PRAGMA journal_mode = DELETE"); }
 
 /// Whether a file has a log: a process writes it, or was killed as it did.
 bool has_log(const std::string& path) { return is_there(path + "-wal") || is_there(path + "-journal"); }
 
-/// Opens a file to read it, beside others that read it. What a killed process has left in the log is taken into the
-/// file first.
+/// Opens a file to read it, beside others that read it. What a killed process has left in the log is
+/// written into the file first.
 SQLite::Database open_to_read(const std::string& path) {
   if (!is_there(path)) {
     throw InputError({"this file of results is no longer there: another process has merged or removed it", path, 0, "",
@@ -76,7 +76,7 @@ SQLite::Database open_to_read(const std::string& path) {
   }
   if (has_log(path)) {
     SQLite::Database database = open_alone(path, SQLite::OPEN_READWRITE);
-    take_log_in(database);
+    checkpoint_log(database);
   }
   note_as_read(path);
   return SQLite::Database(path, SQLite::OPEN_READONLY, kPatience_ms);
@@ -109,10 +109,10 @@ void make_tables(SQLite::Database& database, const std::string& definition) {
   all.commit();
 }
 
-void take_items(SQLite::Database& database, const std::function<void(std::size_t item, bool has_failed)>& take) {
+void visit_items(SQLite::Database& database, const std::function<void(std::size_t item, bool has_failed)>& visit) {
   SQLite::Statement query(database, "SELECT item, failure <> '' FROM items ORDER BY item");
   while (query.executeStep()) {
-    take(static_cast<std::size_t>(query.getColumn(0).getInt64()), query.getColumn(1).getInt() != 0);
+    visit(static_cast<std::size_t>(query.getColumn(0).getInt64()), query.getColumn(1).getInt() != 0);
   }
 }
 
@@ -178,7 +178,7 @@ void Store::close() {
   if (database_ == nullptr) return;
   with_file(database_->path, kOnePartEach, [this] {
     database_->insert.reset();
-    take_log_in(database_->file);
+    checkpoint_log(database_->file);
   });
   database_.reset();  // which lets go of the file
 }
@@ -200,15 +200,15 @@ void Store::write(const Record& record) {
   });
 }
 
-void Store::list_items(const std::function<void(std::size_t item, bool has_failed)>& take) const {
-  with_file(database_->path, kOnePartEach, [&] { take_items(database_->file, take); });
+void Store::list_items(const std::function<void(std::size_t item, bool has_failed)>& visit) const {
+  with_file(database_->path, kOnePartEach, [&] { visit_items(database_->file, visit); });
 }
 
 bool is_in_use(const std::string& path) {
   if (!has_log(path)) return false;
   try {
     SQLite::Database file = open_alone(path, SQLite::OPEN_READWRITE, kProbe_ms);
-    take_log_in(file);
+    checkpoint_log(file);
     return false;
   } catch (const SQLite::Exception& error) {
     return error.getErrorCode() == SQLITE_BUSY;
@@ -216,15 +216,15 @@ bool is_in_use(const std::string& path) {
 }
 
 void read_items(const std::string& path, const std::string& definition,
-                const std::function<void(std::size_t item, bool has_failed)>& take) {
+                const std::function<void(std::size_t item, bool has_failed)>& visit) {
   with_file(path, kWait, [&] {
     SQLite::Database file = open_to_read(path);
-    if (has_tables(file, path, definition)) take_items(file, take);
+    if (has_tables(file, path, definition)) visit_items(file, visit);
   });
 }
 
 void read_records(const std::vector<std::string>& paths, const std::string& definition,
-                  const std::function<void(const Record&)>& take) {
+                  const std::function<void(const Record&)>& visit) {
   // One file after the other for each block of items: however many files there are, one is open.
   constexpr std::int64_t kBlock = 20000;  // Assumed: some 20 MB of records
   std::int64_t last = -1;
@@ -249,7 +249,7 @@ void read_records(const std::vector<std::string>& paths, const std::string& defi
     }
     for (const auto& [item, record] : block) {
       throw_if_interrupted();
-      take(record);
+      visit(record);
     }
   }
 }
@@ -258,10 +258,10 @@ void remove_if_contained(const std::string& path, const std::string& definition,
                          const std::function<bool(std::size_t item)>& has) {
   with_file(path, kWait, [&] {
     SQLite::Database file = open_alone(path, SQLite::OPEN_READWRITE);
-    take_log_in(file);
+    checkpoint_log(file);
     bool is_contained = true;
     const auto check = [&](std::size_t item, bool /*has_failed*/) { is_contained = is_contained && has(item); };
-    if (has_tables(file, path, definition)) take_items(file, check);
+    if (has_tables(file, path, definition)) visit_items(file, check);
     if (is_contained) std::filesystem::remove(path);  // while nobody else can open it
   });
 }

@@ -38,17 +38,17 @@ class Store {
   /// Opens a file, or makes it. `definition` says what the campaign is. Throws InputError: the file is another
   /// campaign's, is no such file, cannot be written, or another process has it open.
   Store(const std::string& path, const std::string& definition);
-  /// As close(), without a word where that fails: all records are then in the file and its log.
+  /// As close(), without an error where that fails: all records are then in the file and its log.
   ~Store();
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
   /// Throws InputError where it cannot be written, such as on a full disk.
   void write(const Record& record);
-  /// Calls `take` for each item that the file has.
-  void list_items(const std::function<void(std::size_t item, bool has_failed)>& take) const;
-  /// Takes the log into the file, which then stands alone. Throws InputError where that cannot be. Nothing can be
-  /// written afterwards.
+  /// Calls `visit` for each item that the file has.
+  void list_items(const std::function<void(std::size_t item, bool has_failed)>& visit) const;
+  /// Writes the content of the log into the file, which is then complete without it. Throws InputError where that
+  /// cannot be. Nothing can be written afterwards.
   void close();
 
  private:
@@ -59,14 +59,14 @@ class Store {
 /// Whether a process writes the file now.
 bool is_in_use(const std::string& path);
 
-/// Calls `take` for each record of the files in order of their items, once for each item. Throws InputError: a file is
+/// Calls `visit` for each record of the files in order of their items, once for each item. Throws InputError: a file is
 /// another campaign's, is no such file, is written by a process now; two files have different records of one item.
 void read_records(const std::vector<std::string>& paths, const std::string& definition,
-                  const std::function<void(const Record&)>& take);
+                  const std::function<void(const Record&)>& visit);
 
-/// Calls `take` for each item of a file in order, with whether it failed. Throws InputError as read_records() does.
+/// Calls `visit` for each item of a file in order, with whether it failed. Throws InputError as read_records() does.
 void read_items(const std::string& path, const std::string& definition,
-                const std::function<void(std::size_t item, bool has_failed)>& take);
+                const std::function<void(std::size_t item, bool has_failed)>& visit);
 
 /// Removes a file of which `has` has every item; one with a further item stays. Throws InputError where a process
 /// writes it now, or it is no file of this campaign.

@@ -143,7 +143,7 @@ int campaign_run_command(const CampaignRunOptions& options) {
                           options.has_program_progress ? ProgressReader::kProgram : ProgressReader::kPerson);
     state = campaign.carry_out(part, options.threads, progress.callback());
   } catch (const Interrupted&) {
-    std::cerr << wrap_message("stopped: what was done is kept; the same command goes on");
+    std::cerr << wrap_message("stopped: the finished items are saved; the same command continues");
     return kInterrupted;
   }
   output.show(state);

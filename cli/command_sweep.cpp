@@ -38,11 +38,11 @@ int sweep_command(const SweepOptions& options) {
   SweepInput input = options.sweep;
   for (const std::string& text : options.vary) input.axes.push_back(read_sweep_axis(text));
   if (!options.output.folder.empty()) {
-    input.kept_in = place_unfinished(options.output.folder);
-    if (input.kept_in.empty() && !options.output.quiet) {
+    input.unfinished_folder = place_unfinished(options.output.folder);
+    if (input.unfinished_folder.empty() && !options.output.quiet) {
       std::cerr << wrap_message(
-          fmt::format("warning: nothing is kept if the sweep is interrupted, since the folder of {} cannot "
-                      "be written to",
+          fmt::format("warning: if the sweep is interrupted, its results are lost, since the folder of {} "
+                      "cannot be written to",
                       options.output.folder));
     }
   }
@@ -53,13 +53,13 @@ int sweep_command(const SweepOptions& options) {
     ProgressLine progress("sweep", options.output.quiet);
     result = sweep.carry_out(progress.callback());
   } catch (const Interrupted&) {
-    if (input.kept_in.empty()) throw;
-    std::cerr << wrap_message(
-        fmt::format("stopped: what was done is kept in {}; the same command goes on", input.kept_in));
+    if (input.unfinished_folder.empty()) throw;
+    std::cerr << wrap_message(fmt::format("stopped: the finished points are saved in {}; the same command continues",
+                                          input.unfinished_folder));
     return kInterrupted;
   }
   output.show(result);
-  sweep.remove_kept();
+  sweep.remove_unfinished();
   const std::size_t failed = result.count_failures();
   if (failed == 0) return kDone;
   std::cout << std::flush;

@@ -91,7 +91,7 @@ other sets of a folder of sets
 a mistake in rollrig itself, with what to report; nothing is half-written
 .TP
 .B 130
-interrupted; nothing is written, but what is done of a campaign, or of a sweep with \-\-out, is kept
+interrupted; nothing is written, except for the finished items of a campaign, or of a sweep with \-\-out
 .SH ENVIRONMENT
 .TP
 .B ROLLRIG_ASSETS

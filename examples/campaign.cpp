@@ -20,7 +20,7 @@ void define(const std::string& folder, const std::string& tire) {
   rollrig::define_run_campaign(input, folder);
 }
 
-/// Does what is not done yet. If the program is stopped, the next call goes on.
+/// Carries out the items that are not done yet. If the program is stopped, the next call continues.
 int carry_out(const std::string& folder) {
   const rollrig::ItemCampaign campaign(folder);
   // In a job array of Slurm or under mpirun, each process does its part.

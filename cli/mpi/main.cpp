@@ -38,7 +38,7 @@ int run_over_mpi(const MpiOptions& options) {
     tally = hand_out(options, campaign, ranks);
   } catch (const Interrupted&) {
     ranks.abandon();
-    if (ranks.is_first()) std::cerr << "stopped: what was done is kept; the same command goes on\n";
+    if (ranks.is_first()) std::cerr << "stopped: the finished items are saved; the same command continues\n";
     return kInterrupted;
   }
   if (!ranks.is_first()) return kDone;

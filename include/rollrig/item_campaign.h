@@ -79,9 +79,9 @@ class ItemCampaign {
   /// Throws InputError: the folder holds no campaign.
   explicit ItemCampaign(const std::string& folder);
 
-  /// Carries out what is not done of a part. Each result is kept as soon as it is there, so that an interruption
-  /// loses only what is being computed. Throws InputError where another process works on the part, and where a file or
-  /// the version of rollrig has changed since the campaign was begun; Interrupted.
+  /// Carries out what is not done of a part. Each result is saved as soon as it is there, so that an interruption
+  /// loses only the items that are being computed. Throws InputError where another process works on the part, and where
+  /// a file or the version of rollrig has changed since the campaign was begun; Interrupted.
   CampaignState carry_out(const CampaignPart& part, int threads = 0, const Progress& progress = {}) const;
   /// What all processes have done up to now.
   CampaignState read_state() const;
@@ -91,7 +91,7 @@ class ItemCampaign {
 
   /// All items that are done, in their order: item, values, results, failure. The values of a diagnosis are the set and
   /// its folder. Throws InputError where none is done.
-  void write_csv(const std::function<void(const std::string&)>& take) const;  // `take` gets some rows at a time
+  void write_csv(const std::function<void(const std::string&)>& append) const;  // called with some rows at a time
   Export make_export() const;
   /// How much of a result's spread comes from which factor, for the designs sobol_indices and morris.
   /// Throws InputError: another design, an unknown result, too few items.

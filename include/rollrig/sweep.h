@@ -24,11 +24,10 @@ SweepAxis read_sweep_axis(const std::string& text);
 
 struct SweepInput {
   RunInput run;
-  std::vector<SweepAxis> axes;     // at most kMostSweepPoints combinations
-  std::vector<std::string> shown;  // results in the report's table and charts; none: those that change
-  int threads = 0;                 // 0: as many as the machine has
-  std::string kept_in = {};        // folder in which points that are done are kept until the sweep is complete; empty:
-                                   // nowhere
+  std::vector<SweepAxis> axes;         // at most kMostSweepPoints combinations
+  std::vector<std::string> shown;      // results in the report's table and charts; none: those that change
+  int threads = 0;                     // 0: as many as the machine has
+  std::string unfinished_folder = {};  // where finished points are saved until the sweep is complete; empty: nowhere
 };
 
 /// One row for each point, the last axis fastest. Its files: sweep.csv, sweep.json, and manifests.json with the
@@ -46,16 +45,18 @@ struct SweepResult : Report {
 /// A sweep whose runs are all read and checked. Copies share it; any number of threads may use it.
 class Sweep {
  public:
-  /// Throws InputError, also for a result to be shown that the scenario does not have, and where SweepInput::kept_in
-  /// holds another sweep or another process uses it. It is this sweep's alone while a copy is there.
+  /// Throws InputError, also for a result to be shown that the scenario does not have, and where
+  /// SweepInput::unfinished_folder holds another sweep or another process uses it. It is this sweep's alone while a
+  /// copy is there.
   explicit Sweep(const SweepInput& input);
-  /// Runs all points, several at a time. If SweepInput::kept_in has points of an interrupted sweep, it runs the others;
-  /// one call at a time, and the folder is removed if all points fail. A point that fails is named in the result.
-  /// Throws InputError for a result to be shown that no point has; RunFailure where all points fail; Interrupted.
+  /// Runs all points, several at a time. If SweepInput::unfinished_folder has points of an interrupted sweep, it runs
+  /// the others; one call at a time, and the folder is removed if all points fail. A point that fails is named in the
+  /// result. Throws InputError for a result to be shown that no point has; RunFailure where all points fail;
+  /// Interrupted.
   SweepResult carry_out(const Progress& progress = {}) const;
-  /// Removes the points that SweepInput::kept_in holds, once the result is written; and the folder, if it is empty
-  /// then.
-  void remove_kept() const;
+  /// Removes the points that SweepInput::unfinished_folder holds, once the result is written; and the folder, if it is
+  /// empty then.
+  void remove_unfinished() const;
 
  private:
   struct Data;

@@ -205,7 +205,7 @@ TEST_CASE("a sweep that is interrupted goes on where it stopped", "[fast]") {
                  "until [ -s out.unfinished/*.progress ]; do sleep 0.02; done; kill -TERM $!; wait $!\n");
   const auto stopped = run_other("sh", "stop.sh", folder.path());
   CHECK(stopped.status == 130);
-  CHECK_THAT(flatten(stopped.err), Catch::Contains("what was done is kept in out.unfinished"));
+  CHECK_THAT(flatten(stopped.err), Catch::Contains("the finished points are saved in out.unfinished"));
   CHECK(!fs::exists(folder.file("out/sweep.csv")));
   const auto other = run_program(sweep + "--set load_N=5000 --out out", folder.path());
   CHECK(other.status == 2);

@@ -1,4 +1,4 @@
-#include "api/kept_points.h"
+#include "api/unfinished_sweep.h"
 
 #include <fmt/format.h>
 
@@ -19,18 +19,18 @@ namespace {
 
 constexpr const char* kDefinitionFile = "sweep_definition.json";
 
-InputError kept_problem(const std::string& path, const std::string& what, const std::string& allowed) {
+InputError folder_problem(const std::string& path, const std::string& what, const std::string& allowed) {
   return InputError({fmt::format("'{}' {}", path, what), "command line", 0, "--out", path, allowed, ""});
 }
 
 }  // namespace
 
-KeptPoints::KeptPoints(std::string path, const std::string& definition) : path_(std::move(path)) {
+UnfinishedSweep::UnfinishedSweep(std::string path, const std::string& definition) : path_(std::move(path)) {
   open();
   require_definition(definition);
 }
 
-KeptPoints::~KeptPoints() {
+UnfinishedSweep::~UnfinishedSweep() {
   try {
     if (lock_->is_in_place() && campaigns::CampaignFolder{path_, "", 0}.list_files().empty()) remove();
   } catch (const std::exception&) {  // the folder has gone meanwhile, or may not be read: there is nothing to remove
@@ -38,39 +38,39 @@ KeptPoints::~KeptPoints() {
 }
 
 /// Opens the folder, and makes it if need be. Another process may remove it between these two steps: then once more.
-void KeptPoints::open() {
+void UnfinishedSweep::open() {
   do {
     lock_.reset();
     std::error_code error;
     fs::create_directories(path_, error);
     lock_.emplace(path_);
     if (lock_->error() != 0 && lock_->error() != ENOENT) {
-      throw kept_problem(path_, fmt::format("cannot be used: {}", std::generic_category().message(lock_->error())),
-                         "a folder that can be written to");
+      throw folder_problem(path_, fmt::format("cannot be used: {}", std::generic_category().message(lock_->error())),
+                           "a folder that can be written to");
     }
     if (lock_->error() != 0 && error) {
-      throw kept_problem(path_, fmt::format("cannot be made: {}", error.message()), "a folder that can be made");
+      throw folder_problem(path_, fmt::format("cannot be made: {}", error.message()), "a folder that can be made");
     }
     // Where the file system knows no locks, two processes meet at the files of results, which have their own.
     if (lock_->is_taken()) {
-      throw kept_problem(path_, "is in use: another process runs a sweep with the same --out",
-                         "to wait for it, or another --out");
+      throw folder_problem(path_, "is in use: another process runs a sweep with the same --out",
+                           "to wait for it, or another --out");
     }
   } while (!lock_->is_in_place());
 }
 
-void KeptPoints::require_definition(const std::string& definition) const {
+void UnfinishedSweep::require_definition(const std::string& definition) const {
   const std::string file = (fs::path(path_) / kDefinitionFile).string();
   std::error_code none;
   if (fs::is_empty(path_, none)) {
     write_file_atomically(file, definition);
   } else if (!is_there(file) || read_text_file(file) != definition) {
-    throw kept_problem(path_, "holds the points of another, unfinished sweep",
-                       "the settings, files and version of that sweep, to go on with it; or delete the folder");
+    throw folder_problem(path_, "holds the points of another, unfinished sweep",
+                         "the settings, files and version of that sweep, to continue it; or delete the folder");
   }
 }
 
-void KeptPoints::remove() const {
+void UnfinishedSweep::remove() const {
   std::error_code ignored;  // what cannot be removed does no harm
   for (const std::string& results : campaigns::CampaignFolder{path_, "", 0}.list_files()) fs::remove(results, ignored);
   fs::remove(fs::path(path_) / kDefinitionFile, ignored);
