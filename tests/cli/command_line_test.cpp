@@ -17,6 +17,7 @@ using rollrig::CsvTable;
 using rollrig::tests::flatten;
 using rollrig::tests::longest_line;
 using rollrig::tests::read_file;
+using rollrig::tests::run_other;
 using rollrig::tests::run_program;
 using rollrig::tests::TemporaryFolder;
 using rollrig::tests::write_file;
