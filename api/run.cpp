@@ -1,14 +1,25 @@
 #include "rollrig/run.h"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+
 #include "api/data.h"
+#include "api/watched_items.h"
+#include "estimation/uncertainty/uncertainty.h"
 #include "report/page.h"
 #include "report/run_page.h"
+#include "report/run_reports.h"
+#include "sim/core/file_io.h"
+
+namespace fs = std::filesystem;
 
 namespace rollrig {
 
 struct Run::Data {
   scenarios::RunSpec spec;
   scenarios::PreparedRun run;  // refers to spec
+  std::vector<report::ReportFile> files;
 };
 
 namespace {
@@ -56,12 +67,42 @@ std::vector<ResultRecords> list_records(const scenarios::Scenario& scenario, con
   return lists;
 }
 
+/// What a file is to a run.
+std::string find_role(const scenarios::RunSpec& spec, const RunInput& input, const std::string& path) {
+  const auto is = [&path](const std::string& other) {
+    std::error_code none;
+    return !other.empty() && fs::equivalent(path, other, none);
+  };
+  if (is(spec.tire.path)) return "tire";
+  if (is(spec.rig.path)) return "rig";
+  if (spec.vehicle.has_value() && is(spec.vehicle->path)) return "vehicle";
+  if (is_file_name(input.scenario_or_file) && is(input.scenario_or_file)) return "run";
+  return fs::path(path).extension() == ".toml" ? "other file" : "data";
+}
+
+/// Adds the uncertainty to the result that is there.
+void add_run_uncertainty(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome,
+                         const UncertaintyOptions& options, const Progress& progress, Json& json, RunResult& result) {
+  if (!options.budget && options.monte_carlo_trials == 0) return;
+  const std::function<void(double)> advance = [&progress](double done) {
+    if (progress) progress(done, "Monte Carlo");
+  };
+  const estimation::Uncertainty uncertainty = estimation::calc_uncertainty(
+      outcome.make_measurement_model(), {options.monte_carlo_trials, spec.seed, options.threads}, advance);
+  json["uncertainty"] = estimation::make_uncertainty_json(uncertainty);
+  result.text += format_tables(estimation::make_uncertainty_tables(uncertainty));
+}
+
 }  // namespace
 
 Run::Run(const RunInput& input) {
+  const ReadRecorder recorder;
   const auto data = std::make_shared<Data>();
   data->spec = read_run(input);
   data->run = scenarios::prepare_run(data->spec);
+  for (const CampaignFile& file : hash_files(recorder.list_files())) {
+    data->files.push_back({find_role(data->spec, input, file.path), file.path, file.sha256});
+  }
   data_ = data;
 }
 
@@ -69,7 +110,31 @@ const std::string& Run::scenario() const { return data_->spec.scenario->text.nam
 bool Run::writes_set() const { return data_->spec.scenario->writes_sets; }
 bool Run::has_sensors() const { return data_->spec.sensors.has_value(); }
 
-RunResult Run::carry_out(const Progress& progress) const {
+bool Run::has_test_report() const { return report::find_run_report(scenario()) != nullptr; }
+bool Run::has_uncertainty() const { return data_->spec.scenario->has_uncertainty; }
+
+std::vector<std::string> list_scenarios_with_test_report() { return report::list_run_reports(); }
+
+std::vector<std::string> list_scenarios_with_uncertainty() {
+  std::vector<std::string> names;
+  for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
+    if (scenario->has_uncertainty) names.push_back(scenario->text.name);
+  }
+  return names;
+}
+
+void Run::check(const UncertaintyOptions& uncertainty) const {
+  if (!uncertainty.budget && uncertainty.monte_carlo_trials == 0) return;
+  if (!has_uncertainty()) {
+    throw InputError({fmt::format("the results of scenario '{}' have no uncertainty budget", scenario()),
+                      "command line", 0, uncertainty.monte_carlo_trials != 0 ? "--monte-carlo" : "--uncertainty", "",
+                      fmt::format("a scenario with one: {}", fmt::join(list_scenarios_with_uncertainty(), ", ")), ""});
+  }
+  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
+}
+
+RunResult Run::carry_out(const Progress& progress, const UncertaintyOptions& uncertainty) const {
+  check(uncertainty);
   using Ledger = sim::EnergyTerm::Ledger;
   const sim::Progress show = [&progress](double done) { progress(done, ""); };
   const auto outcome = std::make_shared<const scenarios::Outcome>(data_->run(progress ? show : sim::Progress()));
@@ -81,13 +146,21 @@ RunResult Run::carry_out(const Progress& progress) const {
   result.mechanical_closure = outcome->recording.audit.calc_closure(Ledger::kMechanical);
   result.thermal_closure = outcome->recording.audit.calc_closure(Ledger::kThermal);
   result.text = report::format_outcome(spec, *outcome);
-  result.json = to_text(scenarios::make_result_json(spec, *outcome));
+  Json json = scenarios::make_result_json(spec, *outcome);
+  add_run_uncertainty(spec, *outcome, uncertainty, progress, json, result);
+  result.json = to_text(json);
   result.make_files = [data = data_, outcome, json = result.json] {
     return FolderFiles{{"result.json", json},
                        {"recording.csv", scenarios::make_recording_csv(outcome->recording)},
                        {"manifest.json", to_text(scenarios::make_manifest(data->spec, *outcome))}};
   };
   result.make_page = [data = data_, outcome] { return report::make_html(report::make_run_page(data->spec, *outcome)); };
+  if (has_test_report()) {
+    result.make_test_report = [data = data_, outcome, json = std::move(json)] {
+      return report::make_report_html(report::make_run_report(data->spec, *outcome, json, data->files),
+                                      report::find_report_date());
+    };
+  }
   result.make_recording = [outcome] { return make_recording(outcome->recording); };
   if (!writes_set()) return result;
   result.make_set_files = [data = data_, outcome] {

@@ -69,6 +69,14 @@ inline void add_threads(CLI::App& command, int& threads,
 /// the same.
 void require_one_process(const std::string& command, const std::string& instead = "", bool quiet = false);
 
+/// --uncertainty, --monte-carlo and --threads.
+inline void add_uncertainty_options(CLI::App& command, UncertaintyOptions& options) {
+  command.add_flag("--uncertainty", options.budget, "Uncertainty budget of the results (GUM)");
+  command.add_option("--monte-carlo", options.monte_carlo_trials,
+                     "Number of trials of the Monte Carlo method beside the budget (GUM Supplement 1) [none]");
+  add_threads(command, options.threads);
+}
+
 /// --smallest-effect.
 void add_smallest_effect(CLI::App& command, double& percent);
 

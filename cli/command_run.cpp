@@ -14,7 +14,18 @@ struct RunOptions {
   RunInput run;
   OutputOptions output;
   std::string set_folder;
+  UncertaintyOptions uncertainty;
 };
+
+/// Throws InputError where the scenario has no report or no uncertainty that was asked for.
+void require_asked(const RunOptions& options, const Run& run) {
+  if (!options.output.report.empty() && !run.has_test_report()) {
+    throw usage_error(fmt::format("there is no test report of scenario '{}'", run.scenario()), "--report",
+                      options.output.report,
+                      fmt::format("a scenario with one: {}; --html for a page of any scenario",
+                                  fmt::join(list_scenarios_with_test_report(), ", ")));
+  }
+}
 
 int run_command(const RunOptions& options) {
   const Run run(options.run);
@@ -23,12 +34,16 @@ int run_command(const RunOptions& options) {
                       options.set_folder,
                       "--out for result and recording; sets come from drum tests, follow_roller and follow_road");
   }
+  require_asked(options, run);
+  UncertaintyOptions uncertainty = options.uncertainty;
+  if (!options.output.report.empty() && run.has_uncertainty()) uncertainty.budget = true;
+  run.check(uncertainty);
   Output output(options.output, {{"--write-set", options.set_folder}});
   std::optional<OutputFolder> set;
   if (!options.set_folder.empty()) set.emplace(options.set_folder, options.output.force);
   const RunResult result = [&] {
     ProgressLine progress(run.scenario(), options.output.quiet);
-    return run.carry_out(progress.callback());
+    return run.carry_out(progress.callback(), uncertainty);
   }();
   const FolderFiles set_files = set.has_value() ? result.make_set_files() : FolderFiles();
   output.stage(result);
@@ -70,6 +85,8 @@ void add_run_command(CLI::App& app, Action& action) {
   add_output_option(*command, "--write-set", options->set_folder, "Folder for the run as a measurement set");
   options->output.add_to(*command, "File for result.json, - for standard output",
                          "Folder for result.json, recording.csv, manifest.json");
+  options->output.add_report_to(*command);
+  add_uncertainty_options(*command, options->uncertainty);
 }
 
 }  // namespace rollrig::cli

@@ -44,6 +44,7 @@ const OutputOptions& require_apart(const OutputOptions& options, std::vector<Out
   folders.insert(folders.begin(), {"--out", options.folder});
   folders.push_back({"--json", options.json});
   folders.push_back({"--html", options.html});
+  folders.push_back({"--report", options.report});
   require_apart(folders);
   return options;
 }
@@ -90,17 +91,22 @@ void OutputOptions::add_to(CLI::App& command, const char* json_doc, const char* 
   command.add_flag("--quiet", quiet, "Print nothing but errors");
 }
 
+void OutputOptions::add_report_to(CLI::App& command) {
+  add_output_option(command, "--report", report, "File for a test report to print on A4 (HTML); - for standard output");
+}
+
 Output::Output(const OutputOptions& options, std::vector<OutputFile> folders)
     : options_(require_apart(options, std::move(folders))),
       folder_(options.folder.empty() ? std::nullopt
                                      : std::optional<OutputFolder>(std::in_place, options.folder, options.force)),
-      files_({{"--json", options.json}, {"--html", options.html}}) {}
+      files_({{"--json", options.json}, {"--html", options.html}, {"--report", options.report}}) {}
 
 void Output::stage(const Report& report) {
   files_.require_no_input();
   // All are made before the first is written, so that a failure costs no room.
   const FolderFiles files = folder_.has_value() ? report.make_files() : FolderFiles();
   const std::string page = options_.html.empty() ? "" : report.make_page();
+  const std::string test_report = options_.report.empty() ? "" : report.make_test_report();
   if (folder_.has_value()) {
     stage(*folder_, files);
     for (const auto& [name, content] : files) {
@@ -110,6 +116,7 @@ void Output::stage(const Report& report) {
   }
   if (!options_.json.empty()) staged_files_.emplace_back(options_.json, report.json);
   if (!options_.html.empty()) staged_files_.emplace_back(options_.html, page);
+  if (!options_.report.empty()) staged_files_.emplace_back(options_.report, test_report);
 }
 
 void Output::stage(OutputFolder& folder, const FolderFiles& files) {
@@ -122,6 +129,7 @@ void Output::finish(const std::string& text, const std::string& notes) {
   commit(text);
   if (options_.is_silent()) return;
   std::cout << note_page(options_.html);
+  if (!options_.report.empty()) std::cout << fmt::format("  test report written to {}\n", options_.report);
   if (!written_.empty()) std::cout << fmt::format("  written to {}/: {}\n", options_.folder, fmt::join(written_, " "));
   std::cout << notes;
 }

@@ -47,13 +47,16 @@ struct OutputOptions {
   std::string folder;
   std::string json;
   std::string html;
+  std::string report;  // --report, of commands with a test report
   bool force = false;
   bool quiet = false;
 
   /// `folder_doc` says what --out is for; without it there is no such option.
   void add_to(CLI::App& command, const char* json_doc, const char* folder_doc = nullptr);
+  /// --report, of a command whose Report has make_test_report.
+  void add_report_to(CLI::App& command);
   /// Whether nothing is to be printed, since that was asked for or standard output is taken.
-  bool is_silent() const { return quiet || json == "-" || html == "-"; }
+  bool is_silent() const { return quiet || json == "-" || html == "-" || report == "-"; }
 };
 
 /// The output of one command. To be made before the work, so that what cannot be written is refused before it. Files
@@ -67,8 +70,8 @@ class Output {
 
   /// Throws InputError where a file to be written has been read; stage() does so as well.
   void require_no_input() const { files_.require_no_input(); }
-  /// Makes and stages the files for --out, the JSON for --json, the page for --html, as far as they are wanted. Throws
-  /// InputError, RunFailure.
+  /// Makes and stages the files for --out, the JSON for --json, the page for --html, the test report for --report, as
+  /// far as they are wanted. Throws InputError, RunFailure.
   void stage(const Report& report);
   /// Stages files of a further folder, which must outlive this.
   void stage(OutputFolder& folder, const FolderFiles& files);

@@ -4,6 +4,7 @@
 
 #include "models/tire/conversion_laws.h"
 #include "scenarios/common/drum_bench.h"
+#include "scenarios/common/iso_uncertainty.h"
 #include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios::iso_28580 {
@@ -94,6 +95,17 @@ double find_verified_pressure_Pa(const sim::Recording<double>& recording) {
   return recording.channel(quantities::kCavityPressure)[recording.row_at(end_s)];
 }
 
+/// F_r of the last cycle at another speed and pressure, quasi-static and without sensors.
+double simulate_resistance_N(Settings settings, RunSpec spec, double speed_m_s, double pressure_Pa) {
+  settings.conditions.speed_m_s = speed_m_s;
+  settings.conditions.pressure_Pa = pressure_Pa;
+  spec.fidelity = Fidelity::kQuasiStatic;
+  spec.sensors.reset();
+  Outcome outcome;
+  simulate_on_drum(spec, settings.conditions, plan(settings, spec), {}, outcome);
+  return find_cycles(outcome.recording, spec, settings.conditions).back().rolling_resistance_N;
+}
+
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const std::vector<Cycle> cycles = find_cycles(outcome.recording, spec, settings.conditions);
   Results results;
@@ -121,11 +133,17 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   if (!models::is_ambient_correction_valid(ambient_K)) {
     outcome.warnings.push_back("the correction to 25 degC holds from 20 to 30 degC only");
   }
+  outcome.make_measurement_model = [&spec, settings, cycles] {
+    const auto simulate = [&](double speed_m_s, double pressure_Pa) {
+      return simulate_resistance_N(settings, spec, speed_m_s, pressure_Pa);
+    };
+    return make_iso_model(spec, cycles, *settings.conditions.pressure_Pa, simulate);
+  };
   return results;
 }
 
 Scenario make() {
-  return make_drum_scenario(
+  Scenario scenario = make_drum_scenario(
       {"iso_28580", "Whole ISO 28580 test: soak, pressure, run-up, warm-up, measurement, skim",
        "3 h soak at test temperature; pressure set and verified after 10 min; run-up at skim load; 30 min under "
        "load at 80 km/h, of which the last minute is the measurement; 3 min skim at 200 N, of which the last "
@@ -133,6 +151,8 @@ Scenario make() {
        "follow, and the last of them is the measurement. Ranges are found from the load signal.",
        "ISO 28580:2009 as in Kolekar and Narasimhan (2024) §3.2.1, §3.2.3, B.2"},
       &plan, &evaluate);
+  scenario.has_uncertainty = true;
+  return scenario;
 }
 
 }  // namespace rollrig::scenarios::iso_28580

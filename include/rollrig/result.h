@@ -58,6 +58,9 @@ struct Report {
   std::string json;                         // of --json
   std::function<FolderFiles()> make_files;  // of --out; null where there are none
   std::function<std::string()> make_page;   // of --html: a page for any browser, which needs no other file
+  /// Of --report: a test report for A4, one file of HTML without a script; null where there is none. Its date is
+  /// today's in UTC, or that of the environment variable SOURCE_DATE_EPOCH.
+  std::function<std::string()> make_test_report;
 };
 
 /// Writes a folder, whole or not at all. Throws InputError where it cannot be written, and where it holds files already

@@ -17,4 +17,5 @@
 #include "run.h"
 #include "scaffold.h"
 #include "sweep.h"
+#include "uncertainty_options.h"
 #include "version.h"

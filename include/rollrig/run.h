@@ -8,6 +8,7 @@
 
 #include "progress.h"
 #include "result.h"
+#include "uncertainty_options.h"
 
 #pragma GCC visibility push(default)
 namespace rollrig {
@@ -65,14 +66,25 @@ class Run {
   /// Whether the scenario can write a measurement set, and whether virtual sensors are there for it.
   bool writes_set() const;
   bool has_sensors() const;
+  /// Whether there is a test report of the scenario, and whether its results have an uncertainty budget.
+  bool has_test_report() const;
+  bool has_uncertainty() const;
 
-  /// Throws RunFailure, Interrupted.
-  RunResult carry_out(const Progress& progress = {}) const;
+  /// Throws InputError where an uncertainty is asked for and has_uncertainty() is false, or the number of trials is out
+  /// of range.
+  void check(const UncertaintyOptions& uncertainty) const;
+
+  /// Throws RunFailure, Interrupted, and InputError as check() does.
+  RunResult carry_out(const Progress& progress = {}, const UncertaintyOptions& uncertainty = {}) const;
 
  private:
   struct Data;
   std::shared_ptr<const Data> data_;
 };
+
+/// The scenarios of which there is a test report, and those whose results have an uncertainty budget.
+std::vector<std::string> list_scenarios_with_test_report();
+std::vector<std::string> list_scenarios_with_uncertainty();
 
 }  // namespace rollrig
 #pragma GCC visibility pop

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "estimation/uncertainty/measurement_model.h"
 #include "measurements/measurement_set.h"
 #include "models/effect.h"
 #include "models/quantities.h"
@@ -53,6 +54,9 @@ struct Outcome {
   sim::Recording<double> recording;
   std::vector<SetRun> set_runs;
   Json statistics = Json::object();  // of the integrator
+  /// The results as a measurement, for their uncertainty: of a scenario with has_uncertainty. A call may simulate
+  /// again, and so may the evaluation of what it returns. The spec must outlive it. Throws RunFailure.
+  std::function<estimation::MeasurementModel()> make_measurement_model;
 };
 
 /// A setting as it is shown by `rollrig describe`.
@@ -83,6 +87,7 @@ struct Scenario {
   bool has_vehicle = false;
   std::vector<Fidelity> fidelities{Fidelity::kMultibody, Fidelity::kQuasiStatic};  // the first unless asked otherwise
   bool writes_sets = false;                                                        // with sensors, of the rig's kind
+  bool has_uncertainty = false;  // its outcomes have a measurement model
   std::vector<SettingInfo> settings;
   std::vector<ResultInfo> results;
   /// Reads spec.settings and plans: what prepare_run() calls. Throws InputError.

@@ -1,0 +1,178 @@
+#include "scenarios/common/iso_uncertainty.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "models/tire/conversion_laws.h"
+#include "models/tire/drum_curvature.h"
+
+namespace rollrig::scenarios {
+namespace {
+
+using estimation::Distribution;
+using estimation::Evaluation;
+using estimation::MeasurementModel;
+using estimation::UncertainInput;
+
+// Half-widths of rectangular distributions for instruments of which no file says anything.
+constexpr double kIsoGainLimit = 0.005;                 // Assumed: of torque or force, a transducer of class 0.5
+constexpr double kIsoLoadLimit = 0.005;                 // Assumed: of the load, likewise
+constexpr double kIsoAmbientLimit_K = 0.2;              // Assumed: a calibrated resistance thermometer
+constexpr double kIsoDiameterLimit_m = 0.001;           // Assumed: measured with a tape around the drum
+constexpr double kIsoPressureLimit_Pa = 1e3;            // Assumed: a gauge with a resolution of 1 kPa
+constexpr double kIsoSpeedLimit_m_s = 0.1 / kKmhPerMs;  // Assumed: a counter on the drum's shaft
+constexpr std::size_t kFewestCycles = 3;                // Assumed: whose scatter says more than the sensor's file
+
+/// Places of the inputs.
+namespace iso_input {
+enum : std::size_t { kForce, kOffset, kGain, kLoad, kDiameter, kAmbient, kSpeed, kPressure };
+}
+
+UncertainInput make_assumed_input(const std::string& name, const std::string& key, double value, double half_width,
+                                  const std::string& limits) {
+  UncertainInput input{name, key, value, half_width / std::sqrt(3.0), Distribution::kRectangular};
+  input.source = fmt::format("Assumed: +-{}, rectangular; no file gives it", limits);
+  input.is_from_limits = true;
+  return input;
+}
+
+/// F_r over F_r at the test's speed and pressure, of second order in both.
+class IsoResponse {
+ public:
+  IsoResponse(const IsoSimulation& simulate, double speed_m_s, double pressure_Pa)
+      : speed_m_s_(speed_m_s), pressure_Pa_(pressure_Pa) {
+    const double center = simulate(speed_m_s, pressure_Pa);
+    const auto ratio = [&](double speeds, double pressures) {
+      return simulate(speed_m_s + speeds * kSpeedStep_m_s, pressure_Pa + pressures * kPressureStep_Pa) / center;
+    };
+    const double faster = ratio(1.0, 0.0), slower = ratio(-1.0, 0.0), harder = ratio(0.0, 1.0),
+                 softer = ratio(0.0, -1.0);
+    by_speed_ = 0.5 * (faster - slower);
+    by_pressure_ = 0.5 * (harder - softer);
+    by_speed_2_ = 0.5 * (faster + slower) - 1.0;
+    by_pressure_2_ = 0.5 * (harder + softer) - 1.0;
+    by_both_ = ratio(1.0, 1.0) - 1.0 - by_speed_ - by_speed_2_ - by_pressure_ - by_pressure_2_;
+  }
+
+  double calc_ratio(double speed_m_s, double pressure_Pa) const {
+    const double s = (speed_m_s - speed_m_s_) / kSpeedStep_m_s;
+    const double p = (pressure_Pa - pressure_Pa_) / kPressureStep_Pa;
+    return 1.0 + (by_speed_ + by_speed_2_ * s) * s + (by_pressure_ + by_pressure_2_ * p) * p + by_both_ * s * p;
+  }
+
+ private:
+  static constexpr double kSpeedStep_m_s = 2.0 / kKmhPerMs;  // many uncertainties: differences far above rounding
+  static constexpr double kPressureStep_Pa = 5e3;
+
+  double speed_m_s_, pressure_Pa_;
+  double by_speed_ = 0.0, by_speed_2_ = 0.0, by_pressure_ = 0.0, by_pressure_2_ = 0.0, by_both_ = 0.0;
+};
+
+/// Whether the scatter of the cycles stands for noise and drift of the sensor.
+bool has_scatter(const RunSpec& spec, const std::vector<Cycle>& cycles) {
+  return spec.sensors.has_value() && cycles.size() >= kFewestCycles;
+}
+
+/// The difference of the two readings: its error from noise, drift and resolution, by the sensor or by the cycles.
+UncertainInput make_force_input(const RunSpec& spec, const std::vector<Cycle>& cycles) {
+  const Cycle& cycle = cycles.back();
+  const models::SensorParameters sensor = find_force_sensor(spec);
+  const double lever_m = spec.rig.lever_m();
+  UncertainInput input{"noise and drift, load minus skim", spec.rig.kind->traits.force.header(),
+                       cycle.rolling_resistance_N * lever_m};
+  if (!has_scatter(spec, cycles)) {
+    input.standard_uncertainty = std::sqrt(models::calc_difference_variance(
+        sensor, cycle.loaded.samples, spec.sample_interval_s, cycle.skim.window.start_s - cycle.loaded.window.start_s));
+    input.source = "noise, drift and resolution of the sensor, of the means over the two windows";
+    return input;
+  }
+  double mean = 0.0, squares = 0.0;
+  const auto n = static_cast<double>(cycles.size());
+  for (const Cycle& own : cycles) mean += own.rolling_resistance_N / n;
+  for (const Cycle& own : cycles) squares += std::pow(own.rolling_resistance_N - mean, 2);
+  input.name = "repeatability, cycle to cycle";
+  input.standard_uncertainty = lever_m * std::sqrt(squares / (n - 1.0));
+  input.degrees_freedom = n - 1.0;
+  input.evaluation = Evaluation::kTypeA;
+  input.distribution = Distribution::kStudentT;
+  input.source = fmt::format("standard deviation of {} cycles, noise and drift of the sensor included", cycles.size());
+  return input;
+}
+
+UncertainInput make_pressure_input(const RunSpec& spec, double pressure_Pa) {
+  const models::SensorSet& usual = spec.rig.kind->default_sensors;
+  for (const models::SensorSet* sensors : {spec.sensors.has_value() ? &*spec.sensors : nullptr, &usual}) {
+    if (sensors == nullptr || sensors->count(quantities::kCavityPressure) == 0) continue;
+    UncertainInput input{"pressure as set", "pressure_kPa", pressure_Pa,
+                         sensors->at(quantities::kCavityPressure).offset_sd};
+    input.source = "offset of the sensor of the cavity pressure";
+    return input;
+  }
+  return make_assumed_input("pressure as set", "pressure_kPa", pressure_Pa, kIsoPressureLimit_Pa, "1 kPa");
+}
+
+std::vector<UncertainInput> make_iso_inputs(const RunSpec& spec, const std::vector<Cycle>& cycles, double pressure_Pa) {
+  const Cycle& cycle = cycles.back();
+  const std::string force_key = spec.rig.kind->traits.force.header();
+  std::vector<UncertainInput> inputs{make_force_input(spec, cycles)};
+  UncertainInput offset{"zero of torque or force", force_key, 0.0, find_force_sensor(spec).offset_sd};
+  offset.source = "offset of the sensor; the skim test cancels it";
+  inputs.push_back(offset);
+  inputs.push_back(make_assumed_input("gain of torque or force", "gain", 1.0, kIsoGainLimit, "0.5 %"));
+  inputs.push_back(make_assumed_input("load", "load_N", cycle.loaded.load_N, kIsoLoadLimit * cycle.loaded.load_N,
+                                      "0.5 % of the load"));
+  UncertainInput diameter =
+      make_assumed_input("drum diameter", "diameter_m", spec.rig.drum.diameter_m, kIsoDiameterLimit_m, "1 mm");
+  if (!reads_torque(spec.rig.kind->traits)) {
+    diameter.standard_uncertainty = 0.0;
+    diameter.source = "none: a flat surface";
+    diameter.is_from_limits = false;
+  }
+  inputs.push_back(diameter);
+  inputs.push_back(make_assumed_input("ambient temperature", "ambient_degC", cycle.loaded.ambient_K, kIsoAmbientLimit_K,
+                                      "0.2 degC"));
+  inputs.push_back(make_assumed_input("speed", "speed_km_h", cycle.loaded.speed_m_s, kIsoSpeedLimit_m_s, "0.1 km/h"));
+  inputs.push_back(make_pressure_input(spec, pressure_Pa));
+  return inputs;
+}
+
+/// K_r for another diameter of a drum, over that for the rig's own; 1 on a belt.
+double calc_diameter_correction(const RunSpec& spec, double diameter_m) {
+  if (!reads_torque(spec.rig.kind->traits)) return 1.0;
+  constexpr double kReferenceCurvature_per_m = 1.0;  // of the 2 m drum
+  const double tire_radius_m = spec.tire.values.geometry.outer_diameter_m / 2.0;
+  const auto correction = [&](double curvature_per_m) {
+    return models::calc_drum_correction(curvature_per_m, kReferenceCurvature_per_m, tire_radius_m);
+  };
+  return correction(2.0 / diameter_m) / correction(spec.rig.curvature_per_m());
+}
+
+}  // namespace
+
+MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& cycles, double pressure_Pa,
+                                const IsoSimulation& simulate) {
+  MeasurementModel model;
+  model.measurands = {{"RRc at 25 degC, 2 m drum", "rrc_25degC_2m_N_per_kN"}, {"RRc as measured", "rrc_N_per_kN"}};
+  model.inputs = make_iso_inputs(spec, cycles, pressure_Pa);
+  model.left_out = {"mounting of the tire, and how the test repeats from day to day: this is one test"};
+  if (!has_scatter(spec, cycles)) {
+    model.left_out.push_back(
+        fmt::format("repeatability from cycle to cycle: it takes {} cycles or more, with sensors", kFewestCycles));
+  }
+  const IsoResponse response(simulate, model.inputs[iso_input::kSpeed].value, pressure_Pa);
+  const double skim_Nm = cycles.back().skim.force_N * spec.rig.lever_m();
+  model.evaluate = [&spec, response, skim_Nm, rig_lever_m = spec.rig.lever_m()](const std::vector<double>& x) {
+    const double loaded_reading = x[iso_input::kGain] * (skim_Nm + x[iso_input::kForce] + x[iso_input::kOffset]);
+    const double skim_reading = x[iso_input::kGain] * (skim_Nm + x[iso_input::kOffset]);
+    const double lever_m = reads_torque(spec.rig.kind->traits) ? 0.5 * x[iso_input::kDiameter] : rig_lever_m;
+    const double resistance_N =
+        (loaded_reading - skim_reading) / lever_m * response.calc_ratio(x[iso_input::kSpeed], x[iso_input::kPressure]);
+    const double rrc = resistance_N / x[iso_input::kLoad];
+    return std::vector<double>{
+        correct_rrc(rrc, x[iso_input::kAmbient], spec) * calc_diameter_correction(spec, x[iso_input::kDiameter]), rrc};
+  };
+  return model;
+}
+
+}  // namespace rollrig::scenarios

@@ -1,0 +1,120 @@
+// The uncertainty budget of an ISO 28580 test against closed forms and against simulations.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "estimation/uncertainty/uncertainty.h"
+#include "sim/core/assets.h"
+#include "tests/support/drum_fixture.h"
+
+using namespace rollrig;
+using namespace rollrig::estimation;
+using tests::make_spec;
+using tests::number;
+
+namespace {
+
+struct IsoRun {
+  scenarios::RunSpec spec;
+  scenarios::Outcome outcome;
+  MeasurementModel model;
+
+  explicit IsoRun(scenarios::RunSpec from)
+      : spec(std::move(from)), outcome(scenarios::run_scenario(spec, {})), model(outcome.make_measurement_model()) {}
+  IsoRun(const IsoRun&) = delete;
+
+  std::vector<double> values() const {
+    std::vector<double> values;
+    for (const UncertainInput& input : model.inputs) values.push_back(input.value);
+    return values;
+  }
+  std::size_t place(const std::string& name) const {
+    for (std::size_t i = 0; i < model.inputs.size(); ++i) {
+      if (model.inputs[i].name == name) return i;
+    }
+    FAIL("no input " << name);
+    return 0;
+  }
+  double contribution(const std::string& name, std::size_t measurand = 0) const {
+    const UncertaintyBudget budget = calc_budgets(model)[measurand];
+    for (const Contribution& line : budget.contributions) {
+      if (line.input.name == name) return line.contribution;
+    }
+    FAIL("no line " << name);
+    return 0.0;
+  }
+};
+
+scenarios::RunSpec make_iso(const std::vector<std::string>& settings = {}, bool sensors = false) {
+  scenarios::RunSpec spec = make_spec("iso_28580", "a50", settings, "quasi_static");
+  if (sensors) spec.sensors = spec.rig.kind->default_sensors;
+  return spec;
+}
+
+}  // namespace
+
+TEST_CASE("the budget is of the result that is reported, also off the reference conditions", "[fast]") {
+  const IsoRun run(make_iso({"ambient_degC=28", "rig.drum.diameter_m=1.7"}));
+  const auto budgets = calc_budgets(run.model);
+  CHECK(1e3 * budgets[0].value == Approx(number(run.outcome, "rrc_25degC_2m_N_per_kN")).epsilon(1e-12));
+  CHECK(1e3 * budgets[1].value == Approx(number(run.outcome, "rrc_N_per_kN")).epsilon(1e-12));
+}
+
+TEST_CASE("contributions of the instruments are those of the closed form", "[fast]") {
+  const IsoRun run(make_iso({"ambient_degC=28"}));
+  const double rrc = 1e-3 * number(run.outcome, "rrc_N_per_kN");
+  const double corrected = 1e-3 * number(run.outcome, "rrc_25degC_2m_N_per_kN");
+  const double third = 1.0 / std::sqrt(3.0);
+  CHECK(run.contribution("load") == Approx(corrected * 0.005 * third).epsilon(1e-4));
+  CHECK(run.contribution("gain of torque or force") == Approx(corrected * 0.005 * third).epsilon(1e-6));
+  CHECK(run.contribution("ambient temperature") == Approx(rrc * 0.008 * 0.2 * third).epsilon(1e-6));
+  CHECK(run.contribution("ambient temperature", 1) == 0.0);
+  CHECK(run.contribution("zero of torque or force") == Approx(0.0).margin(1e-12 * corrected));
+  // Noise and drift are what the result beside it states with k = 2.
+  CHECK(2e3 * run.contribution("noise and drift, load minus skim") ==
+        Approx(number(run.outcome, "rrc_uncertainty_N_per_kN")).epsilon(1e-6));
+  // A drum that is larger than was believed has a longer lever: as measured, exactly -1 % for +1 %.
+  const double relative_m = 0.001 * third / 2.0;
+  CHECK(run.contribution("drum diameter", 1) == Approx(rrc * relative_m).epsilon(1e-3));
+}
+
+TEST_CASE("speed and pressure act as in a simulation with others", "[fast]") {
+  const IsoRun run(make_iso());
+  std::vector<double> x = run.values();
+  x[run.place("speed")] += 3.0 / 3.6;  // many times the uncertainty, off the points of the fit
+  x[run.place("pressure as set")] -= 4e3;
+  const auto other = tests::run("iso_28580", "a50", {"speed_km_h=83", "pressure_kPa=246"});
+  const double before = number(run.outcome, "rrc_N_per_kN");
+  const double after = number(other, "rrc_N_per_kN");
+  REQUIRE(std::abs(after - before) > 0.01);
+  CHECK(1e3 * run.model.evaluate(x)[1] - before == Approx(after - before).epsilon(0.01));
+}
+
+TEST_CASE("with three cycles and sensors their scatter is the contribution of the torque", "[fast]") {
+  const IsoRun run(make_iso({"measurement_cycles=4", "warm_up_min=90"}, true));
+  const UncertainInput& repeat = run.model.inputs[0];
+  CHECK(repeat.evaluation == Evaluation::kTypeA);
+  CHECK(repeat.degrees_freedom == 4.0);
+  const double per_N = 1.0 / number(run.outcome, "load_N");
+  CHECK(1e3 * repeat.standard_uncertainty * per_N ==
+        Approx(number(run.outcome, "rrc_cycles_sd_N_per_kN")).epsilon(1e-3));
+  CHECK(run.model.left_out.size() == 1);
+  const IsoRun one(make_iso({}, true));
+  CHECK(one.model.inputs[0].evaluation == Evaluation::kTypeB);
+  CHECK(one.model.left_out.size() == 2);
+}
+
+TEST_CASE("the GUM holds for an ISO test: Monte Carlo agrees", "[fast]") {
+  const IsoRun run(make_iso());
+  const Uncertainty uncertainty = calc_uncertainty(run.model, {100'000, 1, 2});
+  const MonteCarloResult& result = uncertainty.monte_carlo->results[0];
+  CHECK(result.mean == Approx(uncertainty.budgets[0].value).epsilon(1e-4));
+  CHECK(result.sd == Approx(uncertainty.budgets[0].combined).epsilon(0.01));
+}
+
+TEST_CASE("a flat belt has no drum diameter in its budget", "[fast]") {
+  scenarios::RunSpec spec = make_spec("iso_28580", "a50", {}, "quasi_static");
+  spec.rig = rigs::read_rig(read_config(find_asset("rigs", "flat_belt")));
+  const IsoRun run(std::move(spec));
+  CHECK(run.contribution("drum diameter") == 0.0);
+  CHECK(1e3 * calc_budgets(run.model)[0].value == Approx(number(run.outcome, "rrc_25degC_2m_N_per_kN")).epsilon(1e-12));
+}
