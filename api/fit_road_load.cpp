@@ -1,11 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "api/watched_items.h"
 #include "estimation/road_load/checked_road_load.h"
 #include "estimation/road_load/road_load_report.h"
+#include "estimation/road_load/road_load_uncertainty.h"
+#include "estimation/uncertainty/uncertainty.h"
 #include "report/fit_pages.h"
 #include "rollrig/fit.h"
+#include "sim/core/file_io.h"
 #include "sim/core/text.h"
 
 namespace rollrig {
@@ -91,10 +96,38 @@ RoadLoadFit fit_file(const std::string& path, CoastdownFile& file, const RoadLoa
   }
 }
 
+/// The files that were read, as a report lists them.
+std::vector<report::ReportFile> list_report_files(const ReadRecorder& recorder) {
+  std::vector<report::ReportFile> files;
+  for (const CampaignFile& file : hash_files(recorder.list_files())) {
+    const bool is_table = std::filesystem::path(file.path).extension() == ".csv";
+    files.push_back({is_table ? "coastdowns" : "other file", file.path, file.sha256});
+  }
+  return files;
+}
+
+/// Adds the uncertainty to the result that is there.
+void add_road_load_uncertainty(const CoastdownFile& file, const RoadLoadFitOptions& how, const RoadLoadFit& fit,
+                               const UncertaintyOptions& options, const Progress& progress, Json& json,
+                               RoadLoad& result) {
+  if (!options.budget && options.monte_carlo_trials == 0) return;
+  const std::function<void(double)> advance = [&progress](double done) {
+    if (progress) progress(done, "Monte Carlo");
+  };
+  const estimation::Uncertainty uncertainty =
+      estimation::calc_uncertainty(estimation::make_road_load_model(file.data, how, fit),
+                                   {options.monte_carlo_trials, options.seed, options.threads}, advance);
+  json["uncertainty"] = estimation::make_uncertainty_json(uncertainty);
+  result.text += format_tables(estimation::make_uncertainty_tables(uncertainty));
+}
+
 }  // namespace
 
 RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
-                       const std::vector<std::string>& sessions, BadRows bad_rows) {
+                       const std::vector<std::string>& sessions, BadRows bad_rows,
+                       const UncertaintyOptions& uncertainty, const Progress& progress) {
+  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
+  const ReadRecorder recorder;
   const auto file = std::make_shared<CoastdownFile>(estimation::read_coastdowns(path, bad_rows));
   const RoadLoadFitOptions options = complete_options(*file, given);
   select_sessions(sessions, *file);
@@ -109,12 +142,17 @@ RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
   result.coefficients = estimation::list_coefficients(*fit);
   result.warnings = fit->warnings;
   result.text = format_road_load(path, *file, options, *fit, checks);
-  result.json = to_text(estimation::make_road_load_json(*file, options, *fit, checks));
+  Json json = estimation::make_road_load_json(*file, options, *fit, checks);
+  add_road_load_uncertainty(*file, options, *fit, uncertainty, progress, json, result);
+  result.json = to_text(json);
   result.make_files = [file, fit, json = result.json] {
     return FolderFiles{{"road_load.json", json}, {"residuals.csv", estimation::write_road_load_residuals(*file, *fit)}};
   };
   result.make_page = [file, options, fit, checks] {
     return report::make_html(report::make_road_load_page(*file, options, *fit, checks));
+  };
+  result.make_test_report = [file, json = std::move(json), files = list_report_files(recorder)] {
+    return report::make_report_html(report::make_road_load_report(*file, json, files), report::find_report_date());
   };
   return result;
 }

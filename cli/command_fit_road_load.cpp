@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/output_files.h"
+#include "cli/progress.h"
 #include "rollrig/fit.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -39,6 +40,7 @@ struct FitRoadLoadOptions {
   double rolling_fall_per_K = 8.6e-3;
   bool per_mass = false;
   BadRows bad_rows = BadRows::kRefuse;
+  UncertaintyOptions uncertainty;
 };
 
 /// A coefficient by its name, with the factor of its unit.
@@ -159,7 +161,12 @@ RoadLoadFitOptions make_fit_options(const FitRoadLoadOptions& options) {
 int fit_road_load_command(const FitRoadLoadOptions& options) {
   const RoadLoadFitOptions how = make_fit_options(options);
   Output output(options.output);
-  const RoadLoad fit = fit_road_load(options.csv, how, options.sessions, options.bad_rows);
+  UncertaintyOptions uncertainty = options.uncertainty;
+  if (!options.output.report.empty()) uncertainty.budget = true;
+  const RoadLoad fit = [&] {
+    ProgressLine progress("fit road-load", options.output.quiet);
+    return fit_road_load(options.csv, how, options.sessions, options.bad_rows, uncertainty, progress.callback());
+  }();
   output.show(fit);
   return kDone;
 }
@@ -210,6 +217,9 @@ void add_fit_road_load(CLI::App& fit, Action& action) {
   add_method_options(*command, *options);
   options->output.add_to(*command, "File for road_load.json, - for standard output",
                          "Folder for road_load.json and residuals.csv");
+  options->output.add_report_to(*command);
+  add_uncertainty_options(*command, options->uncertainty);
+  command->add_option("--seed", options->uncertainty.seed, "Seed of the Monte Carlo trials [1]");
   add_skip_bad_rows(*command, options->bad_rows);
 }
 

@@ -6,6 +6,7 @@
 #include "estimation/road_load/road_load_checks.h"
 #include "estimation/tire_fit/fit_tire.h"
 #include "report/page.h"
+#include "report/test_report.h"
 #include "sim/core/columns.h"
 
 namespace rollrig::report {
@@ -23,6 +24,10 @@ std::vector<Table> make_road_load_tables(const RoadLoadFitOptions& options, cons
 /// These tables, points and curve, residuals.
 Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFitOptions& options,
                          const estimation::RoadLoadFit& fit, const estimation::RoadLoadChecks& checks);
+
+/// The test report of coastdowns; `result` is road_load.json, with `uncertainty` where it was asked for.
+TestReport make_road_load_report(const estimation::CoastdownFile& file, const Json& result,
+                                 const std::vector<ReportFile>& files);
 
 /// Rejected pulses, net force or deceleration by speed and pressure, the drum alone, exponent of pressure and
 /// difference of directions.

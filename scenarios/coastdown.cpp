@@ -1,4 +1,5 @@
 /// Coastdown of a vehicle on the road or on a dynamometer, both directions, and its A, B, C.
+#include "estimation/road_load/road_load_uncertainty.h"
 #include "scenarios/common/coastdown_evaluation.h"
 #include "scenarios/common/vehicle_bench.h"
 
@@ -69,7 +70,8 @@ VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
 }
 
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
-  const estimation::RoadLoadFit fit = fit_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns);
+  const CoastdownInputs inputs = take_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns);
+  const estimation::RoadLoadFit fit = estimation::fit_road_load(inputs.data, inputs.options);
   Results results;
   results.load = fit.load;
   results.sd = {fit.sd(0), fit.sd(1), fit.sd(2)};
@@ -88,17 +90,22 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
         "of a tire in colder or warmer air does not follow its correction",
         ambient_K - kZeroCelsius_K));
   }
+  outcome.make_measurement_model = [inputs, fit] {
+    return estimation::make_road_load_model(inputs.data, inputs.options, fit);
+  };
   return results;
 }
 
 Scenario make() {
-  return make_vehicle_scenario(
+  Scenario scenario = make_vehicle_scenario(
       {"coastdown", "Coastdowns of a vehicle on the road or on a dynamometer, and A, B, C from them",
        "Warm-up at constant speed, then pairs of coastdowns in both directions in neutral from 130 km/h to standstill. "
        "Slope and wind of the road, where given, turn round with the direction. A, B, C by generalized least squares "
        "on force against speed, at reference conditions (20 degC, 98.21 kPa, still air).",
        "Kolekar and Narasimhan (2024) §3.4.1, §3.4.3, (3.20); SAE J2263"},
       "road", &plan, &evaluate);
+  scenario.has_uncertainty = true;
+  return scenario;
 }
 
 }  // namespace rollrig::scenarios::coastdown

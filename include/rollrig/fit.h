@@ -8,7 +8,9 @@
 #include "bad_rows.h"
 #include "fit_options.h"
 #include "measurement_set.h"
+#include "progress.h"
 #include "result.h"
+#include "uncertainty_options.h"
 
 #pragma GCC visibility push(default)
 namespace rollrig {
@@ -34,9 +36,10 @@ struct RoadLoad : Report {
 
 /// From a CSV of coastdowns on a road or a dynamometer, of the given sessions or of all. Method: docs/fit_road_load.md.
 /// Errors  InputError: a wrong file, an unknown session, fewer than four bins; RunFailure: A, B, C not decided by the
-///         speeds, no convergence
+///         speeds, no convergence; Interrupted
 RoadLoad fit_road_load(const std::string& file, const RoadLoadFitOptions& options,
-                       const std::vector<std::string>& sessions = {}, BadRows bad_rows = BadRows::kRefuse);
+                       const std::vector<std::string>& sessions = {}, BadRows bad_rows = BadRows::kRefuse,
+                       const UncertaintyOptions& uncertainty = {}, const Progress& progress = {});
 
 /// Rolling resistance from coast-downs of a drum, by the deceleration method of ISO 28580
 /// (docs/fit_drum_coastdown.md). `set` is a .toml file, `data` the folder of its CSV files, empty: that of the set.

@@ -75,9 +75,9 @@ void Coastdowns::append_coastdowns_to(VehicleProgram& program) const {
 
 bool is_coastdown(const std::string& phase) { return phase.rfind(kPrefix, 0) == 0; }
 
-estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, const RunSpec& spec,
-                                       const VehicleConditions& conditions, const Coastdowns& coastdowns) {
-  estimation::CoastdownData data;
+CoastdownInputs take_coastdowns(const sim::Recording<double>& recording, const RunSpec& spec,
+                                const VehicleConditions& conditions, const Coastdowns& coastdowns) {
+  CoastdownInputs inputs;
   for (const sim::PhaseSpan& phase : recording.phases) {
     if (!is_coastdown(phase.name)) continue;
     estimation::CoastdownRun run = take_trace(recording, phase);
@@ -86,9 +86,9 @@ estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, 
     run.conditions.ambient_pressure_Pa.assign(rows, spec.rig.environment.ambient_pressure_Pa);
     run.conditions.wind_m_s.assign(rows, coastdowns.wind_m_s);
     run.conditions.slope.assign(rows, coastdowns.slope);
-    data.runs.push_back(std::move(run));
+    inputs.data.runs.push_back(std::move(run));
   }
-  estimation::RoadLoadFitOptions options;
+  estimation::RoadLoadFitOptions& options = inputs.options;
   options.mass_kg = spec.vehicle->body.mass_kg;
   options.rotating_mass_kg = spec.vehicle->body.rotating_mass_kg;
   options.drag_area_m2 = spec.vehicle->body.drag_area_m2;
@@ -99,7 +99,13 @@ estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, 
     options.reference_temperature_K = *conditions.ambient_K;
     options.reference_pressure_Pa = spec.rig.environment.ambient_pressure_Pa;
   }
-  return estimation::fit_road_load(data, options);
+  return inputs;
+}
+
+estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, const RunSpec& spec,
+                                       const VehicleConditions& conditions, const Coastdowns& coastdowns) {
+  const CoastdownInputs inputs = take_coastdowns(recording, spec, conditions, coastdowns);
+  return estimation::fit_road_load(inputs.data, inputs.options);
 }
 
 const std::vector<double>& road_load_speeds_m_s() {

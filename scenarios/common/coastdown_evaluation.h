@@ -42,6 +42,15 @@ struct Coastdowns {
 /// Whether a phase is one of Coastdowns.
 bool is_coastdown(const std::string& phase);
 
+/// Traces of the coastdowns in a recording, and how A, B, C are fitted to them.
+struct CoastdownInputs {
+  estimation::CoastdownData data;
+  estimation::RoadLoadFitOptions options;
+};
+/// Throws RunFailure where a coastdown does not come to its end.
+CoastdownInputs take_coastdowns(const sim::Recording<double>& recording, const RunSpec& spec,
+                                const VehicleConditions& conditions, const Coastdowns& coastdowns);
+
 /// A, B, C of the coastdowns in a recording, from their traces and what a test team knows: weather, road, mass,
 /// rotating mass. On a dynamometer they are those of rollers, tires and driveline together, at the conditions of the
 /// test. Throws RunFailure where one does not come to its end.

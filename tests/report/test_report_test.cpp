@@ -8,6 +8,7 @@
 #include "report/test_report.h"
 #include "sim/core/file_io.h"
 #include "sim/core/json.h"
+#include "tests/support/coastdown_study.h"
 #include "tests/support/run_program.h"
 
 using namespace rollrig;
@@ -146,6 +147,17 @@ TEST_CASE("report of an ISO test of many cycles with Monte Carlo on A4", "[slow]
 
 TEST_CASE("report of an ISO test on a flat belt on A4", "[slow]") {
   check_command(TemporaryFolder(), "run iso_28580 --tire a50 --rig flat_belt --fidelity quasi_static");
+}
+
+TEST_CASE("reports of coastdowns on A4", "[slow]") {
+  check_command(TemporaryFolder(), "run coastdown --tire a50 --fidelity quasi_static --set pairs=3 --monte-carlo 1000");
+  check_command(TemporaryFolder(), "run coastdown --tire a50 --fidelity quasi_static --rig dyno_1m2");
+  tests::CoastdownStudy study;
+  study.run_force_sd_N = 3.0;
+  const TemporaryFolder folder;
+  write_file(folder.file("coastdowns.csv"), tests::write_coastdown_csv(tests::simulate_coastdowns(study, 1)));
+  check_command(folder, "fit road-load coastdowns.csv --mass 2100", "--shows coastdowns.csv");
+  check_command(folder, "fit road-load coastdowns.csv --per-mass --monte-carlo 1000 --seed 3");
 }
 
 TEST_CASE("report of a tire whose names are long and hold a script on A4", "[slow]") {
