@@ -13,7 +13,8 @@ namespace {
 /// Reports by the name of the scenario: one line for each.
 const std::map<std::string, RunReportMaker>& run_reports() {
   static const std::map<std::string, RunReportMaker> reports{{"coastdown", &make_coastdown_report},
-                                                             {"iso_28580", &make_iso_28580_report}};
+                                                             {"iso_28580", &make_iso_28580_report},
+                                                             {"sae_j1634", &make_sae_j1634_report}};
   return reports;
 }
 

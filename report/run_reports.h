@@ -20,6 +20,9 @@ TestReport make_iso_28580_report(const scenarios::RunSpec& spec, const scenarios
 TestReport make_coastdown_report(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome,
                                  const ReportValues& values);
 
+TestReport make_sae_j1634_report(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome,
+                                 const ReportValues& values);
+
 /// nullptr where there is none.
 RunReportMaker find_run_report(const std::string& scenario);
 /// Scenarios with a report, in the order of `rollrig list`.

@@ -1,5 +1,6 @@
 /// SAE J1634 multi-cycle test on a dynamometer, in the standard's order or the source's (§3.4.4).
 
+#include "scenarios/common/energy_uncertainty.h"
 #include "scenarios/common/iso_coefficient.h"
 #include "scenarios/common/vehicle_bench.h"
 
@@ -221,11 +222,12 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     results.sections.push_back(evaluate_section(spec, layout, outcome.recording, i));
   }
   results.total = add_up(results.sections);
+  outcome.make_measurement_model = [&spec, used = outcome.settings] { return make_section_energy_model(spec, used); };
   return results;
 }
 
 Scenario make() {
-  return make_vehicle_scenario(
+  Scenario scenario = make_vehicle_scenario(
       {"sae_j1634", "SAE J1634 multi-cycle test: city, highway and constant-speed sections with their pauses and soaks",
        "Standard: UDDS 1, 15 s, HFEDS 1, 10 min soak, UDDS 2, constant speed, UDDS 3, 15 s, HFEDS 2, 10 min soak, "
        "UDDS 4, constant speed. Source: the same without pauses, soaks of 10 min after the highway sections, "
@@ -234,6 +236,8 @@ Scenario make() {
        "rig road a vehicle with [road_load] needs exactly that at the wheels, and its tires nothing of their own.",
        "SAE J1634 as fixed by 40 CFR 600.116-12(a); Kolekar and Narasimhan (2024) §3.4.4, §3.4.5, Tables 4.4 and 4.5"},
       "dyno_1m2", &plan, &evaluate);
+  scenario.has_uncertainty = true;
+  return scenario;
 }
 
 }  // namespace rollrig::scenarios::sae_j1634

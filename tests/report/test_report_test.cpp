@@ -160,6 +160,11 @@ TEST_CASE("reports of coastdowns on A4", "[slow]") {
   check_command(folder, "fit road-load coastdowns.csv --per-mass --monte-carlo 1000 --seed 3");
 }
 
+TEST_CASE("report of a multi-cycle test on A4", "[slow]") {
+  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --fidelity quasi_static",
+                "--shows 'Dynamometer setting A'");
+}
+
 TEST_CASE("report of a tire whose names are long and hold a script on A4", "[slow]") {
   const TemporaryFolder folder;
   const std::string name = "<img src=x onerror=attacked=1>" + std::string(60, 'W') + "</td></table>";

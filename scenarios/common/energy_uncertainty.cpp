@@ -1,0 +1,139 @@
+#include "scenarios/common/energy_uncertainty.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "scenarios/run/run_spec.h"
+
+namespace rollrig::scenarios {
+namespace {
+
+using estimation::Distribution;
+using estimation::MeasurementModel;
+using estimation::UncertainInput;
+
+// Half-widths of rectangular distributions; no file says anything of these instruments.
+constexpr double kMeterGainLimit = 0.01;       // Assumed: a power analyzer with its current clamps
+constexpr double kTestMassLimit = 0.002;       // Assumed: a vehicle scale
+constexpr double kTestAmbientLimit_K = 1.0;    // Assumed: the air of the cell, at the tires
+constexpr double kTestPressureLimit_Pa = 3e3;  // Assumed: a pressure gauge of a workshop
+
+/// Places of the inputs; the numbers of the tire follow.
+namespace energy_input {
+enum : std::size_t { kMeter, kMass, kAmbient, kPressure, kTire };
+}
+
+/// Numbers of the tire file that have a standard uncertainty, and how their errors go together.
+struct TireNumbers {
+  std::vector<std::string> keys;  // "bounded.loss_N"
+  Eigen::MatrixXd root;           // S L
+
+  static TireNumbers of(const models::TireFile& tire);
+  /// Adds S L z to the tire.
+  void move(const Eigen::VectorXd& z, models::TireFile& tire) const;
+};
+
+TireNumbers TireNumbers::of(const models::TireFile& tire) {
+  TireNumbers numbers;
+  std::vector<double> sds;
+  models::TireParameters<double>::visit_all(tire.standard_uncertainties,
+                                            [&](const std::string& table, const Field& field, const double& sd) {
+                                              if (sd <= 0.0) return;
+                                              numbers.keys.push_back(table + "." + field.key);
+                                              sds.push_back(sd);
+                                            });
+  const auto n = static_cast<Eigen::Index>(sds.size());
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(n, n);
+  const std::vector<std::string>& correlated = tire.correlation.numbers;
+  const auto find = [&correlated](const std::string& key) {
+    return static_cast<std::size_t>(std::find(correlated.begin(), correlated.end(), key) - correlated.begin());
+  };
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const std::size_t a = find(numbers.keys[static_cast<std::size_t>(i)]);
+      const std::size_t b = find(numbers.keys[static_cast<std::size_t>(j)]);
+      if (i != j && a < correlated.size() && b < correlated.size()) correlation(i, j) = tire.correlation.matrix[a][b];
+    }
+  }
+  numbers.root = correlation.llt().matrixL();
+  for (Eigen::Index i = 0; i < n; ++i) numbers.root.row(i) *= sds[static_cast<std::size_t>(i)];
+  return numbers;
+}
+
+void TireNumbers::move(const Eigen::VectorXd& z, models::TireFile& tire) const {
+  const Eigen::VectorXd moves = root * z;
+  models::TireParameters<double>::visit_all(
+      tire.values, [&](const std::string& table, const Field& field, double& value) {
+        const auto found = std::find(keys.begin(), keys.end(), table + "." + field.key);
+        if (found != keys.end()) value += moves(found - keys.begin());
+      });
+}
+
+UncertainInput make_energy_input(const std::string& name, const std::string& key, double value, double half_width,
+                                 const std::string& limits) {
+  UncertainInput input{name, key, value, half_width / std::sqrt(3.0), Distribution::kRectangular};
+  input.source = fmt::format("Assumed: +-{}, rectangular; no file gives it", limits);
+  input.is_from_limits = true;
+  return input;
+}
+
+void set_number(RunSpec& spec, const std::string& key, double value_SI) {
+  set_config_value(spec.settings, key, fmt::format("{:.17g}", unit_of_key(key).from_si(value_SI)), "uncertainty");
+}
+
+/// Battery and rolling resistance of all sections [J].
+std::vector<double> simulate_energies(const RunSpec& spec) {
+  const Json result = run_scenario(spec, {}).result;
+  double battery_Wh = 0.0, rolling_Wh = 0.0;
+  for (const Json& section : result["sections"]) {
+    battery_Wh += section["battery_energy_Wh"].get<double>();
+    rolling_Wh += section["vehicle_rr_energy_Wh"].get<double>();
+  }
+  const double factor = unit_of_key("energy_Wh").factor;
+  return {factor * battery_Wh, factor * rolling_Wh};
+}
+
+}  // namespace
+
+MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& settings) {
+  MeasurementModel model;
+  model.measurands = {{"energy of the battery, all sections", "battery_energy_Wh"},
+                      {"energy of rolling resistance, all tires and sections", "vehicle_rr_energy_Wh"}};
+  const auto setting = [&settings](const char* key) { return unit_of_key(key).to_si(settings[key].get<double>()); };
+  const double mass_kg = spec.vehicle->body.mass_kg;
+  model.inputs = {
+      make_energy_input("gain of the energy meter", "gain", 1.0, kMeterGainLimit, "1 %"),
+      make_energy_input("test mass", "mass_kg", mass_kg, kTestMassLimit * mass_kg, "0.2 % of the mass"),
+      make_energy_input("air temperature", "ambient_degC", setting("ambient_degC"), kTestAmbientLimit_K, "1 degC"),
+      make_energy_input("tire pressure, cold", "pressure_kPa", setting("pressure_kPa"), kTestPressureLimit_Pa,
+                        "3 kPa")};
+  const auto numbers = std::make_shared<const TireNumbers>(TireNumbers::of(spec.tire));
+  for (std::size_t i = 0; i < numbers->keys.size(); ++i) {
+    UncertainInput input{"numbers of the tire file", "tire", 0.0, 1.0};
+    input.source = "standard uncertainties of the tire file, with their correlation";
+    model.inputs.push_back(input);
+  }
+  if (numbers->keys.empty()) model.left_out.push_back("the loss of the tire: its file gives no uncertainty");
+  model.left_out.push_back("the setting of the dynamometer, the efficiency of the powertrain, how the driver follows");
+  model.evaluate = [&spec, numbers](const std::vector<double>& x) {
+    RunSpec own = spec;
+    own.fidelity = Fidelity::kQuasiStatic;
+    own.sensors.reset();
+    own.vehicle->body.mass_kg = x[energy_input::kMass];
+    set_number(own, "ambient_degC", x[energy_input::kAmbient]);
+    set_number(own, "pressure_kPa", x[energy_input::kPressure]);
+    const auto count = static_cast<Eigen::Index>(numbers->keys.size());
+    numbers->move(Eigen::Map<const Eigen::VectorXd>(x.data() + energy_input::kTire, count), own.tire);
+    std::vector<double> energies_J = simulate_energies(own);
+    energies_J[0] *= x[energy_input::kMeter];
+    return energies_J;
+  };
+  return model;
+}
+
+}  // namespace rollrig::scenarios

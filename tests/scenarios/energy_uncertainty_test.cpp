@@ -1,0 +1,75 @@
+// The uncertainty of the energies of a multi-cycle test against simulations.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "estimation/uncertainty/uncertainty.h"
+#include "tests/support/drum_fixture.h"
+
+using namespace rollrig;
+using namespace rollrig::estimation;
+
+namespace {
+
+double add_up(const Json& result, const char* key) {
+  double sum = 0.0;
+  for (const Json& section : result["sections"]) sum += section[key].get<double>();
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("the energies of the budget are those of the result, and move as in simulations", "[fast]") {
+  const std::vector<std::string> settings{"mid_min=5", "end_min=5"};
+  const scenarios::RunSpec spec = tests::make_spec("sae_j1634", "a50", settings, "quasi_static");
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+  const MeasurementModel model = outcome.make_measurement_model();
+  std::vector<double> x;
+  for (const UncertainInput& input : model.inputs) x.push_back(input.value);
+  const std::vector<double> now = model.evaluate(x);
+  CHECK(now[0] / 3600.0 == Approx(add_up(outcome.result, "battery_energy_Wh")).epsilon(1e-9));
+  CHECK(now[1] / 3600.0 == Approx(add_up(outcome.result, "vehicle_rr_energy_Wh")).epsilon(1e-9));
+  // Heavier, warmer: off the point, as --set has it.
+  std::vector<std::string> others = settings;
+  others.insert(others.end(), {"ambient_degC=27", "vehicle.body.mass_kg=2250"});
+  const scenarios::Outcome other =
+      scenarios::run_scenario(tests::make_spec("sae_j1634", "a50", others, "quasi_static"), {});
+  x[1] = 2250.0;
+  x[2] = 300.15;
+  const std::vector<double> moved = model.evaluate(x);
+  CHECK(moved[1] / 3600.0 == Approx(add_up(other.result, "vehicle_rr_energy_Wh")).epsilon(1e-9));
+  CHECK(std::abs(moved[1] / now[1] - 1.0) > 0.005);
+}
+
+TEST_CASE("the numbers of a tire file move together by their correlation", "[fast]") {
+  // Two numbers of the loss with correlation 0.58: the variance of the energy is c R c, and not the sum of squares.
+  const std::vector<std::string> settings{"mid_min=5", "end_min=5"};
+  scenarios::RunSpec spec = tests::make_spec("sae_j1634", "a50", settings, "quasi_static");
+  models::TireParameters<double>::visit_all(spec.tire.standard_uncertainties,
+                                            [](const std::string& table, const Field& field, double& sd) {
+                                              const std::string key = table + "." + field.key;
+                                              if (key != "bounded.loss_N" && key != "bounded.speed_rise") sd = 0.0;
+                                            });
+  REQUIRE(spec.tire.correlation.matrix[0][1] == 0.58);
+  const auto contribution = [](const scenarios::RunSpec& own) {
+    const MeasurementModel model = scenarios::run_scenario(own, {}).make_measurement_model();
+    REQUIRE(model.inputs.size() == 6);
+    return calc_budgets(model)[1].contributions.back().contribution;
+  };
+  const double together = contribution(spec);
+  const auto alone = [&](const std::string& kept) {
+    scenarios::RunSpec own = spec;
+    models::TireParameters<double>::visit_all(own.tire.standard_uncertainties,
+                                              [&](const std::string& table, const Field& field, double& sd) {
+                                                if (table + "." + field.key != kept) sd = 0.0;
+                                              });
+    const MeasurementModel model = scenarios::run_scenario(own, {}).make_measurement_model();
+    REQUIRE(model.inputs.size() == 5);
+    return calc_budgets(model)[1].contributions.back().contribution;
+  };
+  const double loss = alone("bounded.loss_N");
+  const double rise = alone("bounded.speed_rise");
+  const double squares = loss * loss + rise * rise;
+  // Below the reference speed a larger rise lowers the loss, so that the sign of the second sensitivity is that of the
+  // drive: the magnitude of the mixed term is what the correlation says.
+  CHECK(std::abs(together * together - squares) == Approx(2 * 0.58 * loss * rise).epsilon(0.02));
+}
