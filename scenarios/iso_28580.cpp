@@ -12,6 +12,7 @@ namespace rollrig::scenarios::iso_28580 {
 struct Settings : CycleSettings {
   int measurement_cycles = 0;
   double measurement_s = 0.0;
+  IsoAccuracies accuracies;
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -21,6 +22,7 @@ struct Settings : CycleSettings {
           p.measurement_cycles);
     visit(Field{"measurement_min", between(1.0, 600.0), "Load of a measurement cycle; its skim is as the first", 10.0},
           p.measurement_s);
+    IsoAccuracies::visit(p.accuracies, visit);
   }
 };
 
@@ -137,7 +139,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     const auto simulate = [&](double speed_m_s, double pressure_Pa) {
       return simulate_resistance_N(settings, spec, speed_m_s, pressure_Pa);
     };
-    return make_iso_model(spec, cycles, *settings.conditions.pressure_Pa, simulate);
+    return make_iso_model(spec, cycles, *settings.conditions.pressure_Pa, settings.accuracies, simulate);
   };
   return results;
 }

@@ -29,11 +29,16 @@ namespace iso_input {
 enum : std::size_t { kForce, kOffset, kGain, kLoad, kDiameter, kAmbient, kSpeed, kPressure };
 }
 
-UncertainInput make_assumed_input(const std::string& name, const std::string& key, double value, double half_width,
-                                  const std::string& limits) {
+/// An input with the half-width of a setting, else an assumed one.
+UncertainInput make_instrument_input(const std::string& name, const std::string& key, double value,
+                                     const std::optional<double>& given, double assumed) {
+  const double half_width = given.value_or(assumed);
   UncertainInput input{name, key, value, half_width / std::sqrt(3.0), Distribution::kRectangular};
-  input.source = fmt::format("Assumed: +-{}, rectangular; no file gives it", limits);
-  input.is_from_limits = true;
+  const Unit unit = unit_of_key(key);
+  const std::string limits = fmt::format("+-{:.4g} {}, rectangular", half_width / unit.factor, unit.symbol);
+  input.source =
+      given.has_value() ? limits + ", by the setting of the accuracy" : "Assumed: " + limits + "; no file gives it";
+  input.is_from_limits = !given.has_value();
   return input;
 }
 
@@ -100,41 +105,47 @@ UncertainInput make_force_input(const RunSpec& spec, const std::vector<Cycle>& c
   return input;
 }
 
-UncertainInput make_pressure_input(const RunSpec& spec, double pressure_Pa) {
+UncertainInput make_pressure_input(const RunSpec& spec, double pressure_Pa, const IsoAccuracies& accuracies) {
   const models::SensorSet& usual = spec.rig.kind->default_sensors;
   for (const models::SensorSet* sensors : {spec.sensors.has_value() ? &*spec.sensors : nullptr, &usual}) {
-    if (sensors == nullptr || sensors->count(quantities::kCavityPressure) == 0) continue;
+    if (accuracies.pressure_Pa.has_value() || sensors == nullptr) continue;
+    if (sensors->count(quantities::kCavityPressure) == 0) continue;
     UncertainInput input{"pressure as set", "pressure_kPa", pressure_Pa,
                          sensors->at(quantities::kCavityPressure).offset_sd};
     input.source = "offset of the sensor of the cavity pressure";
     return input;
   }
-  return make_assumed_input("pressure as set", "pressure_kPa", pressure_Pa, kIsoPressureLimit_Pa, "1 kPa");
+  return make_instrument_input("pressure as set", "pressure_kPa", pressure_Pa, accuracies.pressure_Pa,
+                               kIsoPressureLimit_Pa);
 }
 
-std::vector<UncertainInput> make_iso_inputs(const RunSpec& spec, const std::vector<Cycle>& cycles, double pressure_Pa) {
-  const Cycle& cycle = cycles.back();
-  const std::string force_key = spec.rig.kind->traits.force.header();
-  std::vector<UncertainInput> inputs{make_force_input(spec, cycles)};
-  UncertainInput offset{"zero of torque or force", force_key, 0.0, find_force_sensor(spec).offset_sd};
-  offset.source = "offset of the sensor; the skim test cancels it";
-  inputs.push_back(offset);
-  inputs.push_back(make_assumed_input("gain of torque or force", "gain", 1.0, kIsoGainLimit, "0.5 %"));
-  inputs.push_back(make_assumed_input("load", "load_N", cycle.loaded.load_N, kIsoLoadLimit * cycle.loaded.load_N,
-                                      "0.5 % of the load"));
-  UncertainInput diameter =
-      make_assumed_input("drum diameter", "diameter_m", spec.rig.drum.diameter_m, kIsoDiameterLimit_m, "1 mm");
-  if (!reads_torque(spec.rig.kind->traits)) {
-    diameter.standard_uncertainty = 0.0;
-    diameter.source = "none: a flat surface";
-    diameter.is_from_limits = false;
+UncertainInput make_diameter_input(const RunSpec& spec, const IsoAccuracies& accuracies) {
+  if (reads_torque(spec.rig.kind->traits)) {
+    return make_instrument_input("drum diameter", "diameter_m", spec.rig.drum.diameter_m, accuracies.drum_diameter_m,
+                                 kIsoDiameterLimit_m);
   }
-  inputs.push_back(diameter);
-  inputs.push_back(make_assumed_input("ambient temperature", "ambient_degC", cycle.loaded.ambient_K, kIsoAmbientLimit_K,
-                                      "0.2 degC"));
-  inputs.push_back(make_assumed_input("speed", "speed_km_h", cycle.loaded.speed_m_s, kIsoSpeedLimit_m_s, "0.1 km/h"));
-  inputs.push_back(make_pressure_input(spec, pressure_Pa));
-  return inputs;
+  UncertainInput input{"drum diameter", "diameter_m"};
+  input.source = "none: a flat surface";
+  return input;
+}
+
+std::vector<UncertainInput> make_iso_inputs(const RunSpec& spec, const std::vector<Cycle>& cycles, double pressure_Pa,
+                                            const IsoAccuracies& accuracies) {
+  const Reading& loaded = cycles.back().loaded;
+  UncertainInput offset{"zero of torque or force", spec.rig.kind->traits.force.header(), 0.0,
+                        find_force_sensor(spec).offset_sd};
+  offset.source = "offset of the sensor; the skim test cancels it";
+  const std::optional<double> load_N =
+      accuracies.load.has_value() ? std::optional(*accuracies.load * loaded.load_N) : std::nullopt;
+  return {make_force_input(spec, cycles),
+          offset,
+          make_instrument_input("gain of torque or force", "gain_percent", 1.0, accuracies.gain, kIsoGainLimit),
+          make_instrument_input("load", "load_N", loaded.load_N, load_N, kIsoLoadLimit * loaded.load_N),
+          make_diameter_input(spec, accuracies),
+          make_instrument_input("ambient temperature", "ambient_degC", loaded.ambient_K, accuracies.ambient_K,
+                                kIsoAmbientLimit_K),
+          make_instrument_input("speed", "speed_km_h", loaded.speed_m_s, accuracies.speed_m_s, kIsoSpeedLimit_m_s),
+          make_pressure_input(spec, pressure_Pa, accuracies)};
 }
 
 /// K_r for another diameter of a drum, over that for the rig's own; 1 on a belt.
@@ -151,10 +162,10 @@ double calc_diameter_correction(const RunSpec& spec, double diameter_m) {
 }  // namespace
 
 MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& cycles, double pressure_Pa,
-                                const IsoSimulation& simulate) {
+                                const IsoAccuracies& accuracies, const IsoSimulation& simulate) {
   MeasurementModel model;
   model.measurands = {{"RRc at 25 degC, 2 m drum", "rrc_25degC_2m_N_per_kN"}, {"RRc as measured", "rrc_N_per_kN"}};
-  model.inputs = make_iso_inputs(spec, cycles, pressure_Pa);
+  model.inputs = make_iso_inputs(spec, cycles, pressure_Pa, accuracies);
   model.left_out = {"mounting of the tire, and how the test repeats from day to day: this is one test"};
   if (!has_scatter(spec, cycles)) {
     model.left_out.push_back(

@@ -77,6 +77,17 @@ TEST_CASE("contributions of the instruments are those of the closed form", "[fas
   CHECK(run.contribution("drum diameter", 1) == Approx(rrc * relative_m).epsilon(1e-3));
 }
 
+TEST_CASE("an accuracy that is given is used, and no longer assumed", "[fast]") {
+  const IsoRun run(make_iso({"load_accuracy_percent=0.1", "ambient_accuracy_K=0.5", "pressure_accuracy_kPa=2"}));
+  const double rrc = 1e-3 * number(run.outcome, "rrc_N_per_kN");
+  const double third = 1.0 / std::sqrt(3.0);
+  CHECK(run.contribution("load") == Approx(rrc * 0.001 * third).epsilon(1e-4));
+  CHECK(run.contribution("ambient temperature") == Approx(rrc * 0.008 * 0.5 * third).epsilon(1e-6));
+  CHECK(run.model.inputs[run.place("pressure as set")].standard_uncertainty == Approx(2e3 * third).epsilon(1e-12));
+  CHECK_FALSE(run.model.inputs[run.place("load")].is_from_limits);
+  CHECK(run.model.inputs[run.place("speed")].is_from_limits);
+}
+
 TEST_CASE("speed and pressure act as in a simulation with others", "[fast]") {
   const IsoRun run(make_iso());
   std::vector<double> x = run.values();
