@@ -111,12 +111,9 @@ void add_road_load_uncertainty(const CoastdownFile& file, const RoadLoadFitOptio
                                const UncertaintyOptions& options, const Progress& progress, Json& json,
                                RoadLoad& result) {
   if (!options.budget && options.monte_carlo_trials == 0) return;
-  const std::function<void(double)> advance = [&progress](double done) {
-    if (progress) progress(done, "Monte Carlo");
-  };
   const estimation::Uncertainty uncertainty =
       estimation::calc_uncertainty(estimation::make_road_load_model(file.data, how, fit),
-                                   {options.monte_carlo_trials, options.seed, options.threads}, advance);
+                                   {options.monte_carlo_trials, options.seed, options.threads}, progress);
   json["uncertainty"] = estimation::make_uncertainty_json(uncertainty);
   result.text += format_tables(estimation::make_uncertainty_tables(uncertainty));
 }

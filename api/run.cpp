@@ -84,11 +84,8 @@ std::string find_role(const scenarios::RunSpec& spec, const RunInput& input, con
 void add_run_uncertainty(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome,
                          const UncertaintyOptions& options, const Progress& progress, Json& json, RunResult& result) {
   if (!options.budget && options.monte_carlo_trials == 0) return;
-  const std::function<void(double)> advance = [&progress](double done) {
-    if (progress) progress(done, "Monte Carlo");
-  };
   const estimation::Uncertainty uncertainty = estimation::calc_uncertainty(
-      outcome.make_measurement_model(), {options.monte_carlo_trials, spec.seed, options.threads}, advance);
+      outcome.make_measurement_model(), {options.monte_carlo_trials, spec.seed, options.threads}, progress);
   json["uncertainty"] = estimation::make_uncertainty_json(uncertainty);
   result.text += format_tables(estimation::make_uncertainty_tables(uncertainty));
 }

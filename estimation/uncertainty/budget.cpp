@@ -5,6 +5,8 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "sim/core/interrupt.h"
+
 namespace rollrig::estimation {
 namespace {
 
@@ -62,7 +64,7 @@ double calc_coverage_factor(double degrees_freedom) {
   return boost::math::quantile(boost::math::students_t(whole), kUpper);
 }
 
-std::vector<UncertaintyBudget> calc_budgets(const MeasurementModel& model) {
+std::vector<UncertaintyBudget> calc_budgets(const MeasurementModel& model, const std::function<void(double)>& advance) {
   std::vector<double> inputs;
   for (const UncertainInput& input : model.inputs) inputs.push_back(input.value);
   const std::vector<double> values = model.evaluate(inputs);
@@ -73,7 +75,9 @@ std::vector<UncertaintyBudget> calc_budgets(const MeasurementModel& model) {
     budgets.back().value = values[i];
   }
   for (std::size_t k = 0; k < model.inputs.size(); ++k) {
+    throw_if_interrupted();
     const std::vector<double> moves = calc_moves(model, inputs, k);
+    if (advance) advance(static_cast<double>(k + 1) / static_cast<double>(model.inputs.size()));
     for (std::size_t i = 0; i < budgets.size(); ++i) {
       add_contribution(model.inputs[k], moves[i], budgets[i].contributions);
     }

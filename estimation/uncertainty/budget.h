@@ -1,6 +1,7 @@
 #pragma once
 /// Uncertainty budgets by the GUM: what each input contributes, and the expanded uncertainty.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,14 +27,16 @@ struct UncertaintyBudget {
   double expanded = 0.0;
 };
 
-/// The budget of each result of a model. Throws RunFailure as its evaluation does.
+/// The budget of each result of a model. `advance` gets the share that is done. Throws Interrupted, and RunFailure as
+/// its evaluation does.
 /// Equation  u^2(y) = sum c_i^2 u^2(x_i);  c_i u(x_i) = [f(x_i + u(x_i)) - f(x_i - u(x_i))] / 2
 ///           nu_eff = u^4(y) / sum (c_i u(x_i))^4 / nu_i;  U = t_0.975(nu_eff) u(y)
 /// Symbols   c_i sensitivity coefficient; nu degrees of freedom, nu_eff taken down to a whole number, at least 1
 /// Validity  inputs independent, f nearly linear over +-u: Monte Carlo shows whether it is
 /// Source    JCGM 100:2008 (GUM) 5.1.2, note 2 of 5.1.3, G.4.1, G.4.2
 /// Checked   tests/estimation/uncertainty_test.cpp
-std::vector<UncertaintyBudget> calc_budgets(const MeasurementModel& model);
+std::vector<UncertaintyBudget> calc_budgets(const MeasurementModel& model,
+                                            const std::function<void(double)>& advance = {});
 
 /// t_p of Student's t for a two-sided coverage of 95 %; 1.960 for infinitely many degrees of freedom.
 double calc_coverage_factor(double degrees_freedom);

@@ -152,11 +152,18 @@ std::string describe_verdict(const Json& result) {
 }
 
 Uncertainty calc_uncertainty(const MeasurementModel& model, const UncertaintyRequest& request,
-                             const std::function<void(double)>& advance) {
+                             const UncertaintyProgress& progress) {
+  const auto show = [&progress](const char* stage) {
+    return [&progress, stage](double done) {
+      if (progress) progress(done, stage);
+    };
+  };
   Uncertainty uncertainty;
-  uncertainty.budgets = calc_budgets(model);
+  uncertainty.budgets = calc_budgets(model, show("uncertainty budget"));
   uncertainty.left_out = model.left_out;
-  if (request.trials > 0) uncertainty.monte_carlo = run_monte_carlo(model, uncertainty.budgets, request, advance);
+  if (request.trials > 0) {
+    uncertainty.monte_carlo = run_monte_carlo(model, uncertainty.budgets, request, show("Monte Carlo"));
+  }
   return uncertainty;
 }
 

@@ -16,9 +16,12 @@ struct Uncertainty {
   std::vector<std::string> left_out;  // as in MeasurementModel
 };
 
+/// How far it is, and with what.
+using UncertaintyProgress = std::function<void(double done, const std::string& stage)>;
+
 /// Budgets, and Monte Carlo where the request has trials. Throws RunFailure, Interrupted.
 Uncertainty calc_uncertainty(const MeasurementModel& model, const UncertaintyRequest& request,
-                             const std::function<void(double)>& advance = {});
+                             const UncertaintyProgress& progress = {});
 
 /// `uncertainty` of result.json, in the units of the keys: see docs/reports.md.
 Json make_uncertainty_json(const Uncertainty& uncertainty);
