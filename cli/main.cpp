@@ -64,6 +64,9 @@ void add_examples(const CLI::App& app) {
        "  rollrig new rig --diameter 1.7 --inertia 280\n"
        "  rollrig new vehicle --mass 1900 --abc 147.7 -0.237 0.0345\n"
        "  rollrig new set logs --tire a50 --rig drum_2m\n"},
+      {"align",
+       "  rollrig align tires.csv --reference 1.003 -0.05 --out aligned\n"
+       "  rollrig align --apply aligned/alignment.json --rrc 8.1\n"},
       {"export", "  rollrig export warm --mat warm.mat\n"}};
   for (const auto& [name, examples] : kExamples) app.get_subcommand(name)->footer("\nExamples:\n" + examples);
 }
@@ -126,6 +129,7 @@ int make_and_run(int argc, char** argv) {
   add_help_command(app, action);
   add_moved_command(app, action);
   add_convert_command(app, action);
+  add_align_command(app, action);
   add_completion_command(app, action);
   add_man_command(app, action);
   app.footer(kFooter);  // subcommands made after it would repeat it

@@ -1,6 +1,7 @@
 #pragma once
 /// The whole of the API: docs/api.md.
 
+#include "align.h"
 #include "assets.h"
 #include "convert.h"
 #include "diagnose.h"

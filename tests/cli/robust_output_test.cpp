@@ -151,7 +151,7 @@ TEST_CASE("an output without a name is refused, in every command", "[fast]") {
         "run skim --tire a50 --write-set", "sweep skim --tire a50 --vary load_N=4000 --out", "regress --json",
         "fit road-load x.csv --out", "import x.toml --out", "export x.csv --mat", "export x.csv --hdf5",
         "new rig --diameter 1.7 --out", "plan --out", "diagnose x --plan", "diagnose x --loop", "list --json",
-        "convert --force 32 --from-drum 2 --to-drum 1 --tire a50 --json"}) {
+        "convert --force 32 --from-drum 2 --to-drum 1 --tire a50 --json", "align x.csv --out"}) {
     const auto run = run_program(command + std::string(" ''"), folder.path());
     INFO(command << "\n" << run.out << run.err);
     CHECK(run.status == 2);

@@ -45,7 +45,8 @@ const std::vector<std::string>& list_commands() {
       "liner_temperature_degC",
       "fit road-load '" ROLLRIG_SOURCE_DIR "/assets/examples/coastdowns.csv' --mass 2203",
       "import '" ROLLRIG_SOURCE_DIR "/assets/examples/logs/import.toml' --out joined --force",
-      "convert --force 32 --from-drum 2.0 --to-drum 1.2 --tire a50"};
+      "convert --force 32 --from-drum 2.0 --to-drum 1.2 --tire a50",
+      "align '" ROLLRIG_SOURCE_DIR "/assets/examples/alignment.csv' --reference-machine drum_A"};
   return commands;
 }
 

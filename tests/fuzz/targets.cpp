@@ -8,6 +8,7 @@
 
 #include "build_paths.h"
 #include "diagnosis/loop/ledger.h"
+#include "estimation/alignment/alignment.h"
 #include "estimation/drum_deceleration/coast_set.h"
 #include "estimation/road_load/coastdown_file.h"
 #include "exports/tree.h"
@@ -286,6 +287,19 @@ std::vector<Target> make_targets() {
                      [] {
                        Seeds seeds = read_seeds("assets/examples", "coastdown", ".csv");
                        append(read_seeds("tests/bad_input", "coastdown_", ".csv"), seeds);
+                       return seeds;
+                     }});
+  targets.push_back({"alignment",
+                     {"tires.csv"},
+                     [](const std::string& folder) {
+                       AlignmentInput input;
+                       input.file = in(folder, "tires.csv");
+                       input.preliminary = true;
+                       estimation::align_machine(estimation::read_alignment_file(input), input);
+                     },
+                     [] {
+                       Seeds seeds = read_seeds("assets/examples", "alignment", ".csv");
+                       append(read_seeds("tests/bad_input", "align_", ".csv"), seeds);
                        return seeds;
                      }});
   targets.push_back({"drum_coastdown",

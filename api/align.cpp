@@ -1,0 +1,115 @@
+#include "rollrig/align.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "estimation/alignment/alignment.h"
+#include "report/alignment_page.h"
+#include "sim/core/columns.h"
+#include "sim/core/error.h"
+
+namespace rollrig {
+namespace {
+
+ParameterEstimate make_estimate(const std::string& name, double value, double sd, double k, const std::string& unit) {
+  return {name, value, sd, value - k * sd, value + k * sd, unit};
+}
+
+void fill_numbers(const estimation::AlignmentResult& result, Alignment& alignment) {
+  const estimation::LineFit& fit = result.fit;
+  const double k = fit.coverage_factor();
+  alignment.A2 = make_estimate("A2", fit.slope, fit.slope_sd(), k, "");
+  alignment.B2 = make_estimate("B2", fit.offset, fit.offset_sd(), k, "N/kN");
+  alignment.A1 = result.line.A1;
+  alignment.B1_N_per_kN = result.line.B1;
+  const estimation::ScatterEstimate& sigma_m = result.sigma_m;
+  alignment.sigma_m = {"sigma_m",      sigma_m.sd,      sigma_m.sd / std::sqrt(2.0 * sigma_m.degrees_of_freedom),
+                       sigma_m.low_95, sigma_m.high_95, "N/kN"};
+  alignment.checks = result.checks;
+  alignment.valid_until = estimation::format_day(result.valid_until_s);
+  alignment.is_valid = result.is_valid;
+  alignment.is_due = !result.due_because.empty();
+  alignment.warnings = result.warnings;
+}
+
+Json make_value_json(const AlignedValueInput& input, const estimation::StoredAlignment& stored,
+                     const estimation::UncertainValue& aligned, const std::vector<std::string>& warnings) {
+  const double half = aligned.coverage_factor * aligned.sd;
+  Json json = {{"format", "rollrig-aligned-value/1"},
+               {"alignment", input.alignment},
+               {"machine", stored.machine},
+               {"measured_N_per_kN", input.rrc_N_per_kN},
+               {"measurements", input.measurements},
+               {"aligned_N_per_kN", aligned.value},
+               {"sd_N_per_kN", aligned.sd},
+               {"degrees_of_freedom", aligned.degrees_of_freedom},
+               {"coverage_factor", aligned.coverage_factor},
+               {"ci95_N_per_kN", {aligned.value - half, aligned.value + half}}};
+  json["contributions"] = make_list(aligned.contributions, [](const estimation::Contribution& one) {
+    return Json{{"name", one.name}, {"sd_N_per_kN", one.sd}, {"degrees_of_freedom", one.degrees_of_freedom}};
+  });
+  if (!warnings.empty()) json["warnings"] = warnings;
+  return json;
+}
+
+void check_value_input(const AlignedValueInput& input) {
+  if (input.measurements < 1) {
+    throw InputError({"a value is the mean of one measurement at least", "command line", 0, "--measurements",
+                      fmt::format("{}", input.measurements), "a whole number >= 1", ""});
+  }
+  const double value = input.rrc_N_per_kN;
+  if (value >= estimation::kLeastRrc_N_per_kN && value <= estimation::kMostRrc_N_per_kN) return;
+  throw InputError({"this is no rolling resistance coefficient in N/kN" + estimation::guess_unit(value), "command line",
+                    0, "--rrc", fmt::format("{:g}", value),
+                    fmt::format("{:g} to {:g} N/kN", estimation::kLeastRrc_N_per_kN, estimation::kMostRrc_N_per_kN),
+                    ""});
+}
+
+std::vector<std::string> list_value_warnings(const AlignedValueInput& input,
+                                             const estimation::StoredAlignment& stored) {
+  std::vector<std::string> warnings;
+  if (!stored.is_valid) warnings.push_back("the alignment is not valid: its own report says why");
+  if (input.rrc_N_per_kN < stored.low_N_per_kN || input.rrc_N_per_kN > stored.high_N_per_kN) {
+    warnings.push_back(
+        fmt::format("{:.2f} N/kN lies outside the alignment tires, {:.2f} to {:.2f} N/kN: the line is "
+                    "extrapolated",
+                    input.rrc_N_per_kN, stored.low_N_per_kN, stored.high_N_per_kN));
+  }
+  return warnings;
+}
+
+}  // namespace
+
+Alignment align(const AlignmentInput& input) {
+  const auto file = std::make_shared<const estimation::AlignmentFile>(estimation::read_alignment_file(input));
+  const auto result = std::make_shared<const estimation::AlignmentResult>(estimation::align_machine(*file, input));
+  Alignment alignment;
+  fill_numbers(*result, alignment);
+  alignment.text = fmt::format("align   {}   classes {}\n", file->path, file->rules.classes) +
+                   format_tables(report::make_alignment_tables(*file, *result)) + format_warnings(result->warnings);
+  alignment.json = to_text(estimation::make_alignment_json(*file, *result));
+  alignment.make_files = [file, result, json = alignment.json] {
+    return FolderFiles{{"alignment.json", json},
+                       {"measurements.csv", estimation::make_measurement_csv(*file, *result)}};
+  };
+  alignment.make_page = [file, result] { return report::make_html(report::make_alignment_page(*file, *result)); };
+  return alignment;
+}
+
+AlignedValue apply_alignment(const AlignedValueInput& input) {
+  check_value_input(input);
+  const estimation::StoredAlignment stored = estimation::read_alignment_json(input.alignment);
+  const estimation::UncertainValue aligned =
+      estimation::align_value(stored.line, input.rrc_N_per_kN, input.measurements);
+  AlignedValue value;
+  value.rrc = make_estimate("rrc_aligned", aligned.value, aligned.sd, aligned.coverage_factor, "N/kN");
+  value.warnings = list_value_warnings(input, stored);
+  value.text = fmt::format("align   {}\n", input.alignment) +
+               format_tables(report::make_aligned_value_tables(input.rrc_N_per_kN, input.measurements, aligned)) +
+               format_warnings(value.warnings);
+  value.json = to_text(make_value_json(input, stored, aligned, value.warnings));
+  return value;
+}
+
+}  // namespace rollrig

@@ -1,0 +1,76 @@
+#include <utility>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/output_files.h"
+#include "rollrig/align.h"
+
+namespace rollrig::cli {
+namespace {
+
+struct AlignOptions {
+  AlignmentInput input;
+  std::vector<double> reference;
+  AlignedValueInput value;
+  OutputOptions output;
+};
+
+int align_command(const AlignOptions& options) {
+  AlignmentInput input = options.input;
+  if (!options.reference.empty()) input.reference = std::pair(options.reference[0], options.reference[1]);
+  Output output(options.output);
+  const Alignment alignment = align(input);
+  output.show(alignment);
+  return alignment.is_valid ? kDone : kDiffers;
+}
+
+int apply_command(const AlignOptions& options) {
+  if (!options.output.folder.empty() || !options.output.html.empty()) {
+    throw usage_error("an aligned value is a text or JSON", options.output.folder.empty() ? "--html" : "--out", "",
+                      "--json");
+  }
+  Output output(options.output);
+  output.show(apply_alignment(options.value));
+  return kDone;
+}
+
+int align_or_apply(const AlignOptions& options) {
+  const bool is_value = !options.value.alignment.empty();
+  if (is_value == !options.input.file.empty()) {
+    throw usage_error("one thing at a time is done", is_value ? "--apply" : "file", "",
+                      "a CSV file of measurements, or --apply <alignment.json> with --rrc <N/kN>");
+  }
+  return is_value ? apply_command(options) : align_command(options);
+}
+
+}  // namespace
+
+void add_align_command(CLI::App& app, Action& action) {
+  const auto [command, options] = add_command<AlignOptions>(
+      app, action, "align", "Align a machine to a reference machine, as for the EU tire label", &align_or_apply);
+  AlignmentInput& input = options->input;
+  command->add_option("file", input.file, "Measurements of alignment and control tires (.csv)");
+  command->add_option("--machine", input.machine, "Candidate machine, where the file has several");
+  command->add_option("--reference-machine", input.reference_machine, "Machine of the file that is the reference");
+  command->add_option("--reference-values", input.reference_values,
+                      "Values of the reference laboratory, a row for each tire (.csv)");
+  command->add_option("--reference", options->reference, "A1, and B1 in N/kN, of the reference laboratory [1 0]")
+      ->expected(2)
+      ->type_name("A1 B1");
+  command->add_flag("--preliminary", input.preliminary,
+                    "Compute an alignment that breaks rules as well; it is not valid");
+  command->add_flag("--keep-first", input.keep_first, "The file has no first measurements, which are left out else");
+  command->add_option("--on", input.on, "Day on which validity is judged [that of the last row]");
+  command->add_option("--machine-changed", input.machine_changed, "Day of the last significant change of the machine");
+  CLI::Option* apply = command->add_option("--apply", options->value.alignment, "Alignment (.json) to apply to --rrc");
+  CLI::Option* rrc =
+      command->add_option("--rrc", options->value.rrc_N_per_kN, "Measured value in N/kN, at 25 degC, 2 m drum");
+  apply->needs(rrc);
+  rrc->needs(apply);
+  command->add_option("--measurements", options->value.measurements, "Measurements whose mean --rrc is [1]")
+      ->needs(apply);
+  options->output.add_to(*command, "File for the alignment, - for standard output",
+                         "Folder for alignment.json, measurements.csv");
+}
+
+}  // namespace rollrig::cli

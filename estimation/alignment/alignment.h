@@ -1,0 +1,53 @@
+#pragma once
+/// A machine aligned to a reference machine: the line, what it is worth, the rules, and when to align anew.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "estimation/alignment/alignment_file.h"
+#include "estimation/alignment/control_tires.h"
+#include "estimation/alignment/line_fit.h"
+#include "include/rollrig/align.h"
+#include "sim/core/json.h"
+
+namespace rollrig::estimation {
+
+struct AlignmentResult {
+  LineFit fit;
+  AlignmentLine line;
+  ScatterEstimate sigma_m;                 // of the candidate machine
+  std::optional<ScatterEstimate> sigma_l;  // of the reference machine, where its measurements are there
+  std::size_t needed_measurements = 4;     // of each tire, at this sigma_m
+  ControlMonitoring monitoring;
+  std::vector<AlignmentCheck> checks;
+  std::vector<std::string> due_because;  // reasons to align anew; empty: none
+  double valid_until_s = 0.0;
+  double judged_on_s = 0.0;
+  bool is_valid = false;
+  std::vector<std::string> warnings;
+};
+
+/// Fit, uncertainty, rules.
+/// Equation  RRC_l = A2 RRC_c + B2 over the means of the alignment tires; fit_line(), align_value()
+/// Source    EU 2020/740 Annex V Sections 5 and 6; Section 6 as (EC) 1222/2009 Annex IVa Section 6 has it
+/// Errors    InputError: rules that are broken, unless input.preliminary; a line that falls; a day that is none
+/// Checked   tests/estimation/alignment_test.cpp
+AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& input);
+
+/// `rollrig-alignment/1`.
+Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& result);
+/// The numbers of such a document that a later value needs.
+struct StoredAlignment {
+  AlignmentLine line;
+  std::string machine, valid_until;
+  double low_N_per_kN = 0.0, high_N_per_kN = 0.0;  // range of the tires on the candidate machine
+  bool is_valid = false;
+};
+/// Errors  InputError: no such document, a key that is missing or wrong
+StoredAlignment read_alignment_json(const std::string& path);
+
+/// A row for each measurement.
+std::string make_measurement_csv(const AlignmentFile& file, const AlignmentResult& result);
+
+}  // namespace rollrig::estimation

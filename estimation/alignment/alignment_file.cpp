@@ -1,0 +1,286 @@
+#include "estimation/alignment/alignment_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/trim.hpp>
+#include <boost/date_time/gregorian/gregorian_types.hpp>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "measurements/logs/time_stamps.h"
+#include "sim/core/csv.h"
+#include "sim/core/error.h"
+#include "sim/core/text.h"
+
+namespace rollrig::estimation {
+
+namespace {
+
+/// One class a tire, and classes that are aligned together.
+AlignmentRules find_rules(const CsvTable& table, const std::vector<AlignmentRow>& rows) {
+  std::map<std::string, std::string> by_tire;
+  for (const AlignmentRow& row : rows) {
+    const auto& [tire, before] = *by_tire.emplace(row.tire, row.tire_class).first;
+    if (before != row.tire_class) {
+      throw table.cell_error(row.row, "class", fmt::format("tire '{}' has two classes", tire),
+                             fmt::format("{}, as in an earlier row", before));
+    }
+    if ((row.tire_class == "C3") != (rows.front().tire_class == "C3")) {
+      throw table.cell_error(row.row, "class", "classes are mixed that are not aligned together",
+                             fmt::format("{}; C1 and C2 are aligned together, C3 in a file of its own",
+                                         rows.front().tire_class == "C3" ? "C3" : "C1 or C2"));
+    }
+  }
+  return rows.front().tire_class == "C3" ? kRulesC3 : kRulesC1C2;
+}
+
+/// Which machine of the file is the candidate and which the reference; empty where there is none.
+void choose_machines(const CsvTable& table, const std::vector<AlignmentRow>& rows, const AlignmentInput& input,
+                     AlignmentFile& file) {
+  std::set<std::string> all;
+  for (const AlignmentRow& row : rows) {
+    if (!row.machine.empty()) all.insert(row.machine);
+  }
+  const std::vector<std::string> names(all.begin(), all.end());
+  for (const auto& [option, name] :
+       {std::pair("--machine", input.machine), std::pair("--reference-machine", input.reference_machine)}) {
+    if (name.empty() || all.count(name) > 0) continue;
+    InputProblem problem = unknown_name("machine", name, names);
+    problem.file = table.path();
+    problem.key = option;
+    throw InputError(problem);
+  }
+  file.machine = input.machine;
+  file.reference_machine = input.reference_machine;
+  if (!file.machine.empty() && file.machine == file.reference_machine) {
+    throw InputError({"a machine is not aligned to itself", "command line", 0, "--reference-machine", file.machine,
+                      "another machine of the file", ""});
+  }
+  std::vector<std::string> others;
+  for (const std::string& name : names) {
+    if (name != file.reference_machine) others.push_back(name);
+  }
+  if (!file.machine.empty() || others.empty()) return;
+  if (others.size() > 1) {
+    throw InputError({"the file has several machines", table.path(), 0, "machine", boost::algorithm::join(names, ", "),
+                      "--machine <name> of the candidate, and --reference-machine <name> where the reference is among "
+                      "them",
+                      ""});
+  }
+  file.machine = others.front();
+}
+
+void add_measurement(TireMeasurements& tire, const AlignmentMeasurement& measurement) {
+  const auto later = [](double time_s, const AlignmentMeasurement& other) { return time_s < other.time_s; };
+  tire.all.insert(std::upper_bound(tire.all.begin(), tire.all.end(), measurement.time_s, later), measurement);
+}
+
+template <class Tires>
+auto& find_or_add(Tires& tires, const std::string& name) {
+  const auto found = std::find_if(tires.begin(), tires.end(), [&name](const auto& tire) { return tire.name == name; });
+  if (found != tires.end()) return *found;
+  tires.emplace_back();
+  tires.back().name = name;
+  return tires.back();
+}
+
+void sort_rows(const std::vector<AlignmentRow>& rows, AlignmentFile& file) {
+  for (const AlignmentRow& row : rows) {
+    const bool is_candidate = row.machine == file.machine;
+    if (row.is_control && is_candidate) {
+      find_or_add(file.controls, row.tire).measurements.push_back(row.measurement);
+    }
+    if (row.is_control || (!is_candidate && row.machine != file.reference_machine)) continue;
+    AlignmentTire& tire = find_or_add(file.tires, row.tire);
+    tire.tire_class = row.tire_class;
+    add_measurement(is_candidate ? tire.candidate : tire.reference, row.measurement);
+  }
+  for (ControlTire& control : file.controls) {
+    std::stable_sort(control.measurements.begin(), control.measurements.end(),
+                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  }
+}
+
+/// Leaves out the first measurement of each tire, and asks for two that are left.
+void use_last(const AlignmentFile& file, const std::string& tire, const std::string& machine, bool keep_first,
+              TireMeasurements& measured) {
+  if (!keep_first && !measured.all.empty()) measured.all.front().is_used = false;
+  const std::size_t used = measured.used().size();
+  if (used >= 2) return;
+  throw InputError({fmt::format("tire '{}' has too few measurements{}", tire,
+                                machine.empty() ? "" : fmt::format(" on machine '{}'", machine)),
+                    file.path, 0, "tire", format_count(measured.all.size(), "measurement"),
+                    fmt::format("{} of each tire, the first of which is not used; at the least {}, for a mean and its "
+                                "scatter{}",
+                                file.rules.measurements, keep_first ? 2 : 3,
+                                keep_first ? "" : " (--keep-first where the file has no first ones)"),
+                    ""});
+}
+
+struct ReferenceValues {
+  std::map<std::string, double> by_tire;
+  bool is_assigned = false;
+};
+
+/// Values in a column of the file: one for each tire.
+ReferenceValues find_column_values(const CsvTable& table, const std::vector<AlignmentRow>& rows) {
+  ReferenceValues values;
+  const std::string column = find_reference_column(table);
+  values.is_assigned = column == kAssignedColumn;
+  for (const AlignmentRow& row : rows) {
+    if (!row.reference_N_per_kN.has_value() || row.is_control) continue;
+    const auto [before, is_new] = values.by_tire.emplace(row.tire, *row.reference_N_per_kN);
+    if (is_new || before->second == *row.reference_N_per_kN) continue;
+    throw table.cell_error(row.row, column, fmt::format("tire '{}' has two values to be aligned to", row.tire),
+                           fmt::format("{:g}, as in an earlier row", before->second));
+  }
+  return values;
+}
+
+ReferenceValues read_reference_file(const std::string& path, const std::vector<AlignmentTire>& tires) {
+  const CsvTable table = CsvTable::read(path);
+  table.require_known({"tire", kReferenceColumn, kAssignedColumn});
+  ReferenceValues values;
+  const std::string found = find_reference_column(table);
+  const std::string column = found.empty() ? kReferenceColumn : found;
+  values.is_assigned = column == kAssignedColumn;
+  std::vector<std::string> known;
+  for (const AlignmentTire& tire : tires) known.push_back(tire.name);
+  const std::vector<std::string> names = table.text("tire"), cells = table.text(column);
+  for (std::size_t row = 0; row < names.size(); ++row) {
+    const std::string name = boost::algorithm::trim_copy(names[row]);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      InputError error = table.cell_error(row, "tire", fmt::format("tire '{}' was not measured", name),
+                                          boost::algorithm::join(known, ", "));
+      InputProblem problem = error.problem();
+      problem.nearest = nearest_name(name, known);
+      throw InputError(problem);
+    }
+    if (!values.by_tire.emplace(name, read_rrc(table, row, column, boost::algorithm::trim_copy(cells[row]))).second) {
+      throw table.cell_error(row, "tire", fmt::format("tire '{}' is there twice", name), "a row for each tire");
+    }
+  }
+  return values;
+}
+
+/// Tires that only one of the two sides has.
+void require_both_sides(const AlignmentFile& file, const std::string& where) {
+  for (const AlignmentTire& tire : file.tires) {
+    if (tire.candidate.all.empty()) {
+      throw InputError({fmt::format("tire '{}' was not measured on the candidate machine", tire.name), file.path, 0,
+                        "tire", "", "measurements of each alignment tire on both machines", ""});
+    }
+    if (!(tire.reference_N_per_kN > 0.0)) {
+      throw InputError({fmt::format("tire '{}' has no value to be aligned to", tire.name), where, 0, "tire", "",
+                        fmt::format("one for each alignment tire: measurements of --reference-machine, a column {} or "
+                                    "{}, or a file of --reference-values; a control tire has 'control' in column use",
+                                    kReferenceColumn, kAssignedColumn),
+                        ""});
+    }
+  }
+}
+
+void set_reference_values(const CsvTable& table, const std::vector<AlignmentRow>& rows, const AlignmentInput& input,
+                          AlignmentFile& file) {
+  const bool has_column = !find_reference_column(table).empty();
+  const int sources =
+      (has_column ? 1 : 0) + (input.reference_values.empty() ? 0 : 1) + (file.reference_machine.empty() ? 0 : 1);
+  if (sources > 1) {
+    throw InputError({"the values to be aligned to are given more than once", "command line", 0,
+                      input.reference_values.empty() ? "--reference-machine" : "--reference-values", "",
+                      fmt::format("one of: --reference-machine, --reference-values, a column {} or {}",
+                                  kReferenceColumn, kAssignedColumn),
+                      ""});
+  }
+  ReferenceValues values;
+  if (has_column) values = find_column_values(table, rows);
+  if (!input.reference_values.empty()) {
+    values = read_reference_file(input.reference_values, file.tires);
+    file.inputs.push_back(input.reference_values);
+  }
+  file.is_assigned = values.is_assigned;
+  for (AlignmentTire& tire : file.tires) {
+    if (!tire.reference.all.empty()) {
+      use_last(file, tire.name, file.reference_machine, input.keep_first, tire.reference);
+      tire.reference_N_per_kN = tire.reference.mean();
+    } else if (const auto found = values.by_tire.find(tire.name); found != values.by_tire.end()) {
+      tire.reference_N_per_kN = found->second;
+    }
+  }
+  require_both_sides(file, input.reference_values.empty() ? file.path : input.reference_values);
+}
+
+void set_times(AlignmentFile& file) {
+  file.first_s = file.tires.front().candidate.all.front().time_s;
+  for (const AlignmentTire& tire : file.tires) {
+    file.first_s = std::min(file.first_s, tire.candidate.all.front().time_s);
+    file.last_s = std::max(file.last_s, tire.candidate.all.back().time_s);
+  }
+  file.newest_s = file.last_s;
+  for (const ControlTire& control : file.controls) {
+    file.newest_s = std::max(file.newest_s, control.measurements.back().time_s);
+  }
+}
+
+boost::gregorian::date to_date(double time_s) {
+  const auto days = static_cast<long>(std::floor(time_s / measurements::kDay_s));
+  return boost::gregorian::date(1970, 1, 1) + boost::gregorian::days(days);
+}
+
+}  // namespace
+
+std::vector<double> TireMeasurements::used() const {
+  std::vector<double> values;
+  for (const AlignmentMeasurement& one : all) {
+    if (one.is_used) values.push_back(one.rrc_N_per_kN);
+  }
+  return values;
+}
+
+double TireMeasurements::mean() const {
+  const std::vector<double> values = used();
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::string format_day(double time_s) {
+  const boost::gregorian::date::ymd_type day = to_date(time_s).year_month_day();
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(day.year), static_cast<int>(day.month.as_number()),
+                     static_cast<int>(day.day));
+}
+
+double add_years(double time_s, int years) {
+  const boost::gregorian::date day = to_date(time_s);
+  const int year = static_cast<int>(day.year()) + years;
+  const int last =
+      boost::gregorian::gregorian_calendar::end_of_month_day(static_cast<unsigned short>(year), day.month());
+  const boost::gregorian::date later(static_cast<unsigned short>(year), day.month(),
+                                     static_cast<unsigned short>(std::min<int>(day.day(), last)));
+  return static_cast<double>((later - boost::gregorian::date(1970, 1, 1)).days()) * measurements::kDay_s;
+}
+
+AlignmentFile read_alignment_file(const AlignmentInput& input) {
+  const CsvTable table = CsvTable::read(input.file);
+  const std::vector<AlignmentRow> rows = read_alignment_rows(table);
+  AlignmentFile file;
+  file.path = input.file;
+  file.inputs = {input.file};
+  file.rules = find_rules(table, rows);
+  choose_machines(table, rows, input, file);
+  sort_rows(rows, file);
+  if (file.tires.empty()) {
+    throw InputError({"the file has no measurement of an alignment tire", file.path, 0, "use", "",
+                      fmt::format("measurements of at least {} alignment tires", file.rules.least_tires), ""});
+  }
+  set_reference_values(table, rows, input, file);
+  for (AlignmentTire& tire : file.tires) use_last(file, tire.name, file.machine, input.keep_first, tire.candidate);
+  std::sort(file.tires.begin(), file.tires.end(),
+            [](const auto& a, const auto& b) { return a.candidate.mean() < b.candidate.mean(); });
+  set_times(file);
+  return file;
+}
+
+}  // namespace rollrig::estimation

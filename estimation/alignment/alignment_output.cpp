@@ -1,0 +1,204 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "estimation/alignment/alignment.h"
+#include "sim/core/csv.h"
+#include "sim/core/error.h"
+#include "sim/core/parse_json.h"
+
+namespace rollrig::estimation {
+namespace {
+
+constexpr const char* kAlignmentFormat = "rollrig-alignment/1";
+
+Json to_json(const ScatterEstimate& scatter) {
+  return {{"value", scatter.sd},
+          {"degrees_of_freedom", scatter.degrees_of_freedom},
+          {"ci95", {scatter.low_95, scatter.high_95}}};
+}
+
+Json make_tire_json(const AlignmentTire& tire, const LinePoint& point) {
+  Json json = {{"tire", tire.name},
+               {"class", tire.tire_class},
+               {"measurements", tire.candidate.all.size()},
+               {"used", tire.candidate.used().size()},
+               {"measured_N_per_kN", point.x},
+               {"reference_N_per_kN", point.y},
+               {"residual_N_per_kN", point.residual},
+               {"leverage", point.leverage}};
+  json["studentized_residual"] = std::isfinite(point.studentized) ? Json(point.studentized) : Json();
+  return json;
+}
+
+Json make_line_json(const LineFit& fit) {
+  const double k = fit.coverage_factor();
+  const auto estimate = [k](double value, double sd) {
+    return Json{{"value", value}, {"sd", sd}, {"ci95", {value - k * sd, value + k * sd}}};
+  };
+  return {{"A2", estimate(fit.slope, fit.slope_sd())},
+          {"B2_N_per_kN", estimate(fit.offset, fit.offset_sd())},
+          {"tires", fit.points.size()},
+          {"mean_measured_N_per_kN", fit.mean_x},
+          {"Sxx_N2_per_kN2", fit.Sxx},
+          {"line_sd_N_per_kN", fit.sd},
+          {"line_degrees_of_freedom", fit.freedom},
+          {"residual_sd_N_per_kN", fit.residual_sd},
+          {"repeat_sd_N_per_kN", fit.repeat_sd},
+          {"between_tires_sd_N_per_kN", fit.between_sd},
+          {"lack_of_fit_p", fit.lack_of_fit_p},
+          {"attenuation", fit.attenuation}};
+}
+
+Json to_json(const ControlChart& chart) {
+  Json json = {{"tire", chart.tire},
+               {"measurements", chart.rrc_N_per_kN.size()},
+               {"center_N_per_kN", chart.center_N_per_kN},
+               {"sd_N_per_kN", chart.sd_N_per_kN},
+               {"limits_N_per_kN", {chart.low_N_per_kN, chart.high_N_per_kN}},
+               {"longest_run_on_one_side", chart.longest_run},
+               {"largest_gap_days", chart.largest_gap_days}};
+  json["outside"] = make_list(chart.outside, [&chart](std::size_t i) {
+    return Json{{"date", format_day(chart.time_s[i])}, {"rrc_N_per_kN", chart.rrc_N_per_kN[i]}};
+  });
+  return json;
+}
+
+Json make_monitoring_json(const ControlMonitoring& monitoring) {
+  Json json = {{"tires", make_list(monitoring.charts, [](const ControlChart& chart) { return to_json(chart); })}};
+  if (!monitoring.drift.has_value()) return json;
+  const ControlDrift& drift = *monitoring.drift;
+  json["drift"] = {{"N_per_kN_per_year", drift.N_per_kN_per_year},
+                   {"ci95", {drift.low_95, drift.high_95}},
+                   {"p", drift.p_value},
+                   {"over_time_N_per_kN", drift.over_time_N_per_kN}};
+  return json;
+}
+
+/// A key of a stored alignment, which may lie in an object: "line.A2.value".
+const Json& find_key(const Json& document, const std::string& path, const std::string& file) {
+  const Json* at = &document;
+  std::size_t begin = 0;
+  while (begin <= path.size()) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const std::string key = path.substr(begin, end - begin);
+    if (!at->is_object() || !at->contains(key)) {
+      throw InputError(
+          {"a key of the alignment is missing", file, 0, path, "", "a file that 'rollrig align' wrote", ""});
+    }
+    at = &at->at(key);
+    begin = end + 1;
+  }
+  return *at;
+}
+
+InputError make_key_error(const std::string& file, const std::string& path, const Json& value,
+                          const std::string& allowed) {
+  return InputError({"a key of the alignment is wrong", file, 0, path, to_text(value, -1), allowed, ""});
+}
+
+double read_number(const Json& document, const std::string& path, const std::string& file, double least) {
+  const Json& value = find_key(document, path, file);
+  if (value.is_number() && value.get<double>() >= least) return value.get<double>();
+  throw make_key_error(file, path, value, least > -1e9 ? fmt::format("a number >= {:g}", least) : "a number");
+}
+
+std::string read_word(const Json& document, const std::string& path, const std::string& file) {
+  const Json& value = find_key(document, path, file);
+  if (value.is_string()) return value.get<std::string>();
+  throw make_key_error(file, path, value, "a text");
+}
+
+AlignmentLine read_line(const Json& document, const std::string& file) {
+  constexpr double kAny = -1e9;
+  constexpr double kTiny = 1e-9;
+  const auto number = [&](const char* path, double least) { return read_number(document, path, file, least); };
+  AlignmentLine line;
+  line.A1 = number("A1", kTiny);
+  line.B1 = number("B1_N_per_kN", kAny);
+  line.A2 = number("line.A2.value", kTiny);
+  line.B2 = number("line.B2_N_per_kN.value", kAny);
+  line.tires = number("line.tires", 3.0);
+  line.mean_x = number("line.mean_measured_N_per_kN", 0.0);
+  line.Sxx = number("line.Sxx_N2_per_kN2", kTiny);
+  line.line_sd = number("line.line_sd_N_per_kN", 0.0);
+  line.line_freedom = number("line.line_degrees_of_freedom", 1.0);
+  line.between_sd = number("line.between_tires_sd_N_per_kN", 0.0);
+  line.between_freedom = line.tires - 2.0;
+  line.sigma_m = number("sigma_m_N_per_kN.value", 0.0);
+  line.sigma_m_freedom = number("sigma_m_N_per_kN.degrees_of_freedom", 1.0);
+  return line;
+}
+
+}  // namespace
+
+Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& result) {
+  Json json = {{"format", kAlignmentFormat}, {"file", file.path}, {"machine", file.machine}};
+  if (!file.reference_machine.empty()) json["reference_machine"] = file.reference_machine;
+  json["classes"] = file.rules.classes;
+  json["aligned_to"] = file.is_assigned ? "assigned values" : "reference machine, then A1 and B1";
+  json["first_measurement"] = format_day(file.first_s);
+  json["last_measurement"] = format_day(file.last_s);
+  json["valid_until"] = format_day(result.valid_until_s);
+  json["judged_on"] = format_day(result.judged_on_s);
+  json["valid"] = result.is_valid;
+  json["align_again_because"] = result.due_because;
+  json["A1"] = result.line.A1;
+  json["B1_N_per_kN"] = result.line.B1;
+  json["line"] = make_line_json(result.fit);
+  json["sigma_m_N_per_kN"] = to_json(result.sigma_m);
+  if (result.sigma_l.has_value()) json["sigma_of_reference_N_per_kN"] = to_json(*result.sigma_l);
+  json["measurements_needed"] = result.needed_measurements;
+  json["range_measured_N_per_kN"] = {result.fit.points.front().x, result.fit.points.back().x};
+  json["tires"] = Json::array();
+  for (std::size_t i = 0; i < file.tires.size(); ++i) {
+    json["tires"].push_back(make_tire_json(file.tires[i], result.fit.points[i]));
+  }
+  json["checks"] = make_list(result.checks, [](const AlignmentCheck& check) {
+    return Json{{"name", check.name},     {"found", check.found}, {"limit", check.limit},
+                {"source", check.source}, {"met", check.is_met},  {"rule", check.is_rule}};
+  });
+  if (!result.monitoring.charts.empty()) json["monitoring"] = make_monitoring_json(result.monitoring);
+  if (!result.warnings.empty()) json["warnings"] = result.warnings;
+  return json;
+}
+
+StoredAlignment read_alignment_json(const std::string& path) {
+  const Json document = read_json(path);
+  const std::string format = read_word(document, "format", path);
+  if (format != kAlignmentFormat) {
+    throw InputError({"this is no alignment", path, 0, "format", format, kAlignmentFormat, ""});
+  }
+  StoredAlignment stored;
+  stored.line = read_line(document, path);
+  stored.machine = read_word(document, "machine", path);
+  stored.valid_until = read_word(document, "valid_until", path);
+  const Json& valid = find_key(document, "valid", path);
+  if (!valid.is_boolean()) throw make_key_error(path, "valid", valid, "true or false");
+  stored.is_valid = valid.get<bool>();
+  const Json& range = find_key(document, "range_measured_N_per_kN", path);
+  if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number()) {
+    throw make_key_error(path, "range_measured_N_per_kN", range, "two numbers");
+  }
+  stored.low_N_per_kN = range[0].get<double>();
+  stored.high_N_per_kN = range[1].get<double>();
+  return stored;
+}
+
+std::string make_measurement_csv(const AlignmentFile& file, const AlignmentResult& result) {
+  CsvWriter csv({"tire", "class", "machine", "date", "rrc_N_per_kN", "used", "aligned_N_per_kN"});
+  const AlignmentLine& line = result.line;
+  for (const AlignmentTire& tire : file.tires) {
+    for (const bool is_candidate : {true, false}) {
+      for (const AlignmentMeasurement& one : (is_candidate ? tire.candidate : tire.reference).all) {
+        const double at_reference = is_candidate ? line.A2 * one.rrc_N_per_kN + line.B2 : one.rrc_N_per_kN;
+        csv.add_row(tire.name, tire.tire_class, is_candidate ? file.machine : file.reference_machine,
+                    format_day(one.time_s), one.rrc_N_per_kN, std::string(one.is_used ? "yes" : "no"),
+                    CsvWriter::Rounded{line.A1 * at_reference + line.B1, 6});
+      }
+    }
+  }
+  return csv.take();
+}
+
+}  // namespace rollrig::estimation

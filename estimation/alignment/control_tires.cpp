@@ -1,0 +1,104 @@
+#include "estimation/alignment/control_tires.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numeric>
+
+namespace rollrig::estimation {
+namespace {
+
+constexpr double kDay = 86400.0;
+constexpr double kYear_s = 365.25 * kDay;
+constexpr double kMeanRangeOfTwo = 1.128;  // d2: expected range of two normal values over their standard deviation
+
+std::size_t find_longest_run(const ControlChart& chart) {
+  std::size_t longest = 0, run = 0;
+  int side_before = 0;
+  for (const double value : chart.rrc_N_per_kN) {
+    const int side = value > chart.center_N_per_kN ? 1 : value < chart.center_N_per_kN ? -1 : 0;
+    run = side != 0 && side == side_before ? run + 1 : (side != 0 ? 1 : 0);
+    side_before = side;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+ControlChart make_chart(const ControlTire& tire) {
+  ControlChart chart;
+  chart.tire = tire.name;
+  for (const AlignmentMeasurement& one : tire.measurements) {
+    chart.time_s.push_back(one.time_s);
+    chart.rrc_N_per_kN.push_back(one.rrc_N_per_kN);
+  }
+  const std::size_t count = chart.rrc_N_per_kN.size();
+  chart.center_N_per_kN =
+      std::accumulate(chart.rrc_N_per_kN.begin(), chart.rrc_N_per_kN.end(), 0.0) / static_cast<double>(count);
+  for (std::size_t i = 1; i < count; ++i) {
+    chart.sd_N_per_kN += std::abs(chart.rrc_N_per_kN[i] - chart.rrc_N_per_kN[i - 1]);
+    chart.largest_gap_days = std::max(chart.largest_gap_days, (chart.time_s[i] - chart.time_s[i - 1]) / kDay);
+  }
+  if (count < 2) return chart;
+  chart.sd_N_per_kN /= kMeanRangeOfTwo * static_cast<double>(count - 1);
+  chart.low_N_per_kN = chart.center_N_per_kN - 3.0 * chart.sd_N_per_kN;
+  chart.high_N_per_kN = chart.center_N_per_kN + 3.0 * chart.sd_N_per_kN;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (std::abs(chart.rrc_N_per_kN[i] - chart.center_N_per_kN) > 3.0 * chart.sd_N_per_kN) chart.outside.push_back(i);
+  }
+  chart.longest_run = find_longest_run(chart);
+  return chart;
+}
+
+/// One slope within tires of their own levels.
+std::optional<ControlDrift> find_drift(const std::vector<ControlChart>& charts) {
+  double Sxx = 0.0, Sxy = 0.0, Syy = 0.0, freedom = -1.0;
+  double first_s = std::numeric_limits<double>::infinity(), last_s = -first_s;
+  for (const ControlChart& chart : charts) {
+    const double count = static_cast<double>(chart.time_s.size());
+    const double mean_s = std::accumulate(chart.time_s.begin(), chart.time_s.end(), 0.0) / count;
+    for (std::size_t i = 0; i < chart.time_s.size(); ++i) {
+      const double x = (chart.time_s[i] - mean_s) / kYear_s, y = chart.rrc_N_per_kN[i] - chart.center_N_per_kN;
+      Sxx += x * x;
+      Sxy += x * y;
+      Syy += y * y;
+    }
+    freedom += count - 1.0;
+    first_s = std::min(first_s, chart.time_s.front());
+    last_s = std::max(last_s, chart.time_s.back());
+  }
+  if (freedom < 3.0 || !(Sxx > 0.0)) return std::nullopt;
+  ControlDrift drift;
+  drift.N_per_kN_per_year = Sxy / Sxx;
+  drift.degrees_of_freedom = freedom;
+  const double sd = std::sqrt(std::max(0.0, Syy - Sxy * Sxy / Sxx) / freedom / Sxx);
+  const boost::math::students_t distribution(freedom);
+  const double half = sd * boost::math::quantile(boost::math::complement(distribution, 0.025));
+  drift.low_95 = drift.N_per_kN_per_year - half;
+  drift.high_95 = drift.N_per_kN_per_year + half;
+  if (sd > 0.0) {
+    const double t = std::abs(drift.N_per_kN_per_year) / sd;
+    drift.p_value = 2.0 * boost::math::cdf(boost::math::complement(distribution, t));
+  }
+  drift.over_time_N_per_kN = drift.N_per_kN_per_year * (last_s - first_s) / kYear_s;
+  return drift;
+}
+
+}  // namespace
+
+ControlMonitoring watch_control_tires(const std::vector<ControlTire>& tires) {
+  ControlMonitoring monitoring;
+  for (const ControlTire& tire : tires) monitoring.charts.push_back(make_chart(tire));
+  monitoring.drift = find_drift(monitoring.charts);
+  return monitoring;
+}
+
+bool has_drift(const ControlMonitoring& monitoring) {
+  return monitoring.drift.has_value() && monitoring.drift->p_value < kDriftLevel;
+}
+
+bool is_out_of_control(const ControlChart& chart) {
+  return chart.rrc_N_per_kN.size() >= kLeastControlMeasurements &&
+         (!chart.outside.empty() || chart.longest_run >= kMostOnOneSide);
+}
+
+}  // namespace rollrig::estimation

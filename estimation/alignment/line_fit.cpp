@@ -1,0 +1,137 @@
+#include "estimation/alignment/line_fit.h"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/statistics/linear_regression.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+
+#include "estimation/alignment/alignment_rules.h"
+
+namespace rollrig::estimation {
+namespace {
+
+using boost::math::complement;
+
+double mean_of_values(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double calc_two_sided_t(double degrees_of_freedom) {
+  return boost::math::quantile(complement(boost::math::students_t(degrees_of_freedom), 0.025));
+}
+
+/// Leverage, residual and what the others say of it.
+void judge_points(LineFit& fit) {
+  const double p = static_cast<double>(fit.points.size());
+  const double rest = p - 3.0;
+  const double squares = fit.residual_sd * fit.residual_sd * (p - 2.0);
+  for (LinePoint& point : fit.points) {
+    const double from_mean = point.x - fit.mean_x;
+    point.leverage = 1.0 / p + from_mean * from_mean / fit.Sxx;
+    point.studentized = std::numeric_limits<double>::quiet_NaN();
+    const double left = squares - point.residual * point.residual / (1.0 - point.leverage);
+    // Without a rest of scatter, its ratio is one of rounding errors.
+    if (rest < 1.0 || left <= 1e-20 * (1.0 + squares)) continue;
+    point.studentized = point.residual / std::sqrt(left / rest * (1.0 - point.leverage));
+    const double one = 2.0 * boost::math::cdf(complement(boost::math::students_t(rest), std::abs(point.studentized)));
+    point.p_value = std::min(1.0, p * one);
+  }
+}
+
+void weigh_scatter(LineFit& fit, const RepeatScatter& repeats) {
+  const double p = static_cast<double>(fit.points.size());
+  double squares = 0.0;
+  for (const LinePoint& point : fit.points) squares += point.residual * point.residual;
+  fit.residual_sd = std::sqrt(squares / (p - 2.0));
+  fit.repeat_sd = std::hypot(repeats.reference_sd, fit.slope * repeats.candidate_sd);
+  fit.repeat_freedom = repeats.degrees_of_freedom;
+  const bool more_than_repeats = fit.residual_sd >= fit.repeat_sd;
+  fit.sd = std::max(fit.residual_sd, fit.repeat_sd);
+  fit.freedom = more_than_repeats ? p - 2.0 : repeats.degrees_of_freedom;
+  const double excess = fit.residual_sd * fit.residual_sd - fit.repeat_sd * fit.repeat_sd;
+  fit.between_sd = std::sqrt(std::max(0.0, excess));
+  fit.attenuation = p * repeats.candidate_sd * repeats.candidate_sd / fit.Sxx;
+  if (fit.repeat_sd > 0.0 && fit.repeat_freedom > 0.0) {
+    const double ratio = std::pow(fit.residual_sd / fit.repeat_sd, 2);
+    fit.lack_of_fit_p = boost::math::cdf(complement(boost::math::fisher_f(p - 2.0, fit.repeat_freedom), ratio));
+  }
+}
+
+}  // namespace
+
+std::size_t calc_measurements(const AlignmentRules& rules, double sigma_m_N_per_kN) {
+  if (sigma_m_N_per_kN <= rules.sigma_m_N_per_kN) return rules.measurements;
+  const double ratio = sigma_m_N_per_kN / rules.gamma_N_per_kN;
+  return std::max(rules.measurements, static_cast<std::size_t>(std::ceil(1.0 + ratio * ratio)));
+}
+
+ScatterEstimate pool_repeats(const std::vector<std::vector<double>>& groups) {
+  double squares = 0.0;
+  ScatterEstimate pooled;
+  for (const std::vector<double>& group : groups) {
+    if (group.size() < 2) continue;
+    const double mean = mean_of_values(group);
+    for (const double value : group) squares += (value - mean) * (value - mean);
+    pooled.degrees_of_freedom += static_cast<double>(group.size() - 1);
+  }
+  if (pooled.degrees_of_freedom < 1.0) throw std::invalid_argument("no repeats");
+  pooled.sd = std::sqrt(squares / pooled.degrees_of_freedom);
+  const boost::math::chi_squared distribution(pooled.degrees_of_freedom);
+  pooled.low_95 =
+      pooled.sd * std::sqrt(pooled.degrees_of_freedom / boost::math::quantile(complement(distribution, 0.025)));
+  pooled.high_95 = pooled.sd * std::sqrt(pooled.degrees_of_freedom / boost::math::quantile(distribution, 0.025));
+  return pooled;
+}
+
+double LineFit::slope_sd() const { return sd / std::sqrt(Sxx); }
+
+double LineFit::offset_sd() const {
+  return sd * std::sqrt(1.0 / static_cast<double>(points.size()) + mean_x * mean_x / Sxx);
+}
+
+double LineFit::coverage_factor() const { return calc_two_sided_t(freedom); }
+
+LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, const RepeatScatter& repeats) {
+  if (x.size() < 3 || x.size() != y.size()) throw std::invalid_argument("a line needs three points");
+  LineFit fit;
+  fit.mean_x = mean_of_values(x);
+  for (const double value : x) fit.Sxx += (value - fit.mean_x) * (value - fit.mean_x);
+  if (!(fit.Sxx > 0.0)) throw std::invalid_argument("all points have one x");
+  std::tie(fit.offset, fit.slope) = boost::math::statistics::simple_ordinary_least_squares(x, y);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    fit.points.push_back({x[i], y[i], y[i] - fit.value(x[i]), 0.0, 0.0, 1.0});
+  }
+  weigh_scatter(fit, repeats);
+  judge_points(fit);
+  return fit;
+}
+
+UncertainValue align_value(const AlignmentLine& line, double x, int measurements) {
+  const double from_mean = x - line.mean_x;
+  const double scale = std::abs(line.A1);
+  const double of_line = line.line_sd * std::sqrt(1.0 / line.tires + from_mean * from_mean / line.Sxx);
+  const double of_repeats = std::abs(line.A2) * line.sigma_m / std::sqrt(static_cast<double>(measurements));
+  UncertainValue aligned;
+  aligned.value = line.A1 * (line.A2 * x + line.B2) + line.B1;
+  aligned.contributions = {{"A2 and B2", scale * of_line, line.line_freedom},
+                           {"scatter of tires about the line", scale * line.between_sd, line.between_freedom},
+                           {"sigma_m of the measured value", scale * of_repeats, line.sigma_m_freedom}};
+  // Line and tires rest on the same residuals, so that they err together.
+  const double of_residuals = scale * scale * (of_line * of_line + line.between_sd * line.between_sd);
+  const double repeat_variance = scale * scale * of_repeats * of_repeats;
+  const double variance = of_residuals + repeat_variance;
+  const double by_freedom =
+      of_residuals * of_residuals / line.line_freedom + repeat_variance * repeat_variance / line.sigma_m_freedom;
+  aligned.sd = std::sqrt(variance);
+  aligned.degrees_of_freedom = by_freedom > 0.0 ? variance * variance / by_freedom : 1.0;
+  aligned.coverage_factor = calc_two_sided_t(aligned.degrees_of_freedom);
+  return aligned;
+}
+
+}  // namespace rollrig::estimation

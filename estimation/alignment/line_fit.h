@@ -1,0 +1,118 @@
+#pragma once
+/// A straight line through the means of tires on two machines, and what a value on it is worth.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace rollrig::estimation {
+
+/// A standard deviation and how well it is known.
+struct ScatterEstimate {
+  double sd = 0.0;
+  double degrees_of_freedom = 0.0;
+  double low_95 = 0.0;  // of the standard deviation, by chi-square
+  double high_95 = 0.0;
+};
+
+/// Standard deviation of one measurement, pooled over groups of repeats; groups of one add nothing.
+///
+/// Equation  s^2 = sum_ij (x_ij - mean_i)^2 / sum_i (n_i - 1); 95 % from s sqrt(f/chi2_f(0.975)) to
+///           s sqrt(f/chi2_f(0.025))
+/// Validity  one standard deviation for all groups, normal errors
+/// Errors    std::invalid_argument: no group of two or more
+/// Source    ISO 5725-2, repeatability; second-hand. For groups of equal size it is the mean square of their standard
+///           deviations, which is sigma_m of EU 2020/740 Annex V Section 2.3. Second-hand
+/// Checked   tests/estimation/alignment_test.cpp
+ScatterEstimate pool_repeats(const std::vector<std::vector<double>>& groups);
+
+/// One tire of the line.
+struct LinePoint {
+  double x = 0.0;            // mean on the candidate machine
+  double y = 0.0;            // of the reference machine
+  double residual = 0.0;     // y less the line
+  double leverage = 0.0;     // share of this point's y in the line's value there
+  double studentized = 0.0;  // residual over its standard deviation without this point; NaN of three points
+  double p_value = 1.0;      // of a residual so large somewhere among the points, by Bonferroni
+};
+
+/// What the repeats say of the scatter of a point about the line.
+struct RepeatScatter {
+  double candidate_sd = 0.0;  // of a mean on the candidate machine
+  double reference_sd = 0.0;  // of the value of the reference machine; 0 where it is not known
+  double degrees_of_freedom = 0.0;
+};
+
+/// y = slope x + offset, by ordinary least squares.
+///
+/// Equation  slope = Sxy/Sxx; s_r^2 = sum residual^2/(p - 2); s_w^2 = sd_y^2 + slope^2 sd_x^2 of the repeats;
+///           s = max(s_r, s_w); tau^2 = max(0, s_r^2 - s_w^2), what the tires differ by besides;
+///           sd(slope) = s/sqrt(Sxx), sd(offset) = s sqrt(1/p + mean_x^2/Sxx);
+///           attenuation = p sd_x^2/Sxx, the share by which errors of x make the slope too small
+/// Validity  errors of x are small beside the range of x: attenuation far below 1. s is the larger
+///           one, since p - 2 is three for five tires, and chance could make s_r too small
+/// Source    Draper and Smith, Applied Regression Analysis; Fuller, Measurement Error Models, section 1.1
+///           (attenuation). Second-hand
+/// Errors    std::invalid_argument: fewer than three points, or all of one x
+/// Checked   tests/estimation/alignment_test.cpp
+struct LineFit {
+  double slope = 1.0;
+  double offset = 0.0;
+  double mean_x = 0.0;
+  double Sxx = 0.0;
+  std::vector<LinePoint> points;
+  double residual_sd = 0.0;  // s_r
+  double repeat_sd = 0.0;    // s_w
+  double repeat_freedom = 0.0;
+  double sd = 0.0;             // s
+  double freedom = 0.0;        // of s
+  double between_sd = 0.0;     // tau
+  double lack_of_fit_p = 1.0;  // of so much scatter about the line, if the repeats said all; 1 without repeats
+  double attenuation = 0.0;
+
+  double slope_sd() const;
+  double offset_sd() const;
+  /// Factor of the 95 % interval of slope and offset.
+  double coverage_factor() const;
+  double value(double x) const { return slope * x + offset; }
+};
+LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, const RepeatScatter& repeats);
+
+/// One contribution to the uncertainty of an aligned value.
+struct Contribution {
+  std::string name;
+  double sd = 0.0;  // in the unit of the result
+  double degrees_of_freedom = 0.0;
+};
+
+/// An aligned value as GUM states it.
+struct UncertainValue {
+  double value = 0.0;
+  double sd = 0.0;
+  double degrees_of_freedom = 0.0;  // Welch and Satterthwaite
+  double coverage_factor = 2.0;     // of 95 %
+  std::vector<Contribution> contributions;
+};
+
+/// Numbers of an alignment that a later value needs.
+struct AlignmentLine {
+  double A1 = 1.0, B1 = 0.0, A2 = 1.0, B2 = 0.0;
+  double tires = 0.0;  // p
+  double mean_x = 0.0, Sxx = 1.0;
+  double line_sd = 0.0, line_freedom = 1.0;        // s
+  double between_sd = 0.0, between_freedom = 1.0;  // tau
+  double sigma_m = 0.0, sigma_m_freedom = 1.0;
+};
+
+/// The aligned value of a tire that was measured so many times on the candidate machine.
+///
+/// Equation  y = A1 (A2 x + B2) + B1;
+///           u^2 = A1^2 (s^2 (1/p + (x - mean_x)^2/Sxx) + tau^2 + A2^2 sigma_m^2/k)
+///           effective degrees of freedom by Welch and Satterthwaite, line and tires as one contribution
+/// Validity  without the uncertainty of A1 and B1, which their laboratory has to state, and of the reference machine's
+///           own correctness; 95 % by Student's t with the effective degrees of freedom
+/// Source    JCGM 100:2008 (GUM), 5.1.2 and annex G.4. Second-hand
+/// Checked   tests/estimation/alignment_test.cpp
+UncertainValue align_value(const AlignmentLine& line, double x, int measurements);
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,150 @@
+// rollrig align as a laboratory meets it: an alignment, its files, and values that it is applied to.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "build_paths.h"
+#include "tests/cli/longest_line.h"
+#include "tests/support/run_program.h"
+
+using Catch::Contains;
+using nlohmann::json;
+using rollrig::tests::flatten;
+using rollrig::tests::longest_line;
+using rollrig::tests::read_file;
+using rollrig::tests::run_program;
+using rollrig::tests::TemporaryFolder;
+using rollrig::tests::write_file;
+
+namespace {
+
+const std::string kAlignmentExample = "'" ROLLRIG_SOURCE_DIR "/assets/examples/alignment.csv'";
+
+/// Five tires of one laboratory, four measurements each, whose reference values lie on y = 0.95 x + 0.2. `last` is
+/// added to each last measurement.
+std::string make_alignment_csv(const std::string& columns, const std::string& value_column, double last = 0.0) {
+  std::string text = "tire,class,date," + value_column + columns + "\n";
+  for (int repeat = 0; repeat < 4; ++repeat) {
+    for (int tire = 0; tire < 5; ++tire) {
+      const double truth = 6.5 + tire;
+      const double shift = repeat == 0 ? 0.2 : repeat == 1 ? -0.03 : repeat == 2 ? 0.0 : 0.03 + last;
+      text += "T" + std::to_string(tire + 1) + ",C1,2026-0" + std::to_string(repeat + 3) + "-0" +
+              std::to_string(tire + 2) + "," + std::to_string(truth + shift);
+      if (!columns.empty()) text += "," + std::to_string(0.95 * truth + 0.2);
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("the example is aligned within 80 columns, and its numbers are those of the JSON", "[fast]") {
+  const TemporaryFolder folder;
+  const auto run = run_program(
+      "align " + kAlignmentExample + " --reference-machine drum_A --reference 1.003 -0.05 --out out", folder.path());
+  INFO(run.out << run.err);
+  REQUIRE(run.status == 0);
+  CHECK(longest_line(run.out) <= 80);
+  const json alignment = json::parse(read_file(folder.file("out/alignment.json")));
+  CHECK(alignment["format"] == "rollrig-alignment/1");
+  CHECK(alignment["machine"] == "drum_B");
+  CHECK(alignment["valid"] == true);
+  // Made with A2 = 1/1.015 and B2 = -0.22/1.015.
+  CHECK(alignment["line"]["A2"]["ci95"][0].get<double>() < 1.0 / 1.015);
+  CHECK(alignment["line"]["A2"]["ci95"][1].get<double>() > 1.0 / 1.015);
+  CHECK(alignment["sigma_m_N_per_kN"]["ci95"][0].get<double>() < 0.04);
+  CHECK(alignment["sigma_m_N_per_kN"]["ci95"][1].get<double>() > 0.04);
+  CHECK_THAT(read_file(folder.file("out/measurements.csv")), Catch::StartsWith("tire,class,machine,date,"));
+
+  const auto value = run_program("align --apply out/alignment.json --rrc 8.1 --json -", folder.path());
+  REQUIRE(value.status == 0);
+  const json aligned = json::parse(value.out);
+  const double at_reference =
+      alignment["line"]["A2"]["value"].get<double>() * 8.1 + alignment["line"]["B2_N_per_kN"]["value"].get<double>();
+  CHECK(aligned["aligned_N_per_kN"].get<double>() == Approx(1.003 * at_reference - 0.05));
+  CHECK(aligned["sd_N_per_kN"].get<double>() > 1.003 * 0.9 * alignment["sigma_m_N_per_kN"]["value"].get<double>());
+}
+
+TEST_CASE("the first measurement of a tire is not used, and the line of the others is exact", "[fast]") {
+  const TemporaryFolder folder;
+  write_file(folder.file("tires.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN"));
+  const auto run = run_program("align tires.csv --json -", folder.path());
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const json alignment = json::parse(run.out);
+  CHECK(alignment["line"]["A2"]["value"].get<double>() == Approx(0.95).epsilon(1e-9));
+  CHECK(alignment["line"]["B2_N_per_kN"]["value"].get<double>() == Approx(0.2).epsilon(1e-6));
+  CHECK(alignment["sigma_m_N_per_kN"]["value"].get<double>() == Approx(0.03));
+  CHECK(alignment["valid_until"] == "2028-06-06");
+  const json kept = json::parse(run_program("align tires.csv --keep-first --json -", folder.path()).out);
+  CHECK(kept["line"]["B2_N_per_kN"]["value"].get<double>() == Approx(0.2 - 0.95 * 0.05).epsilon(1e-6));
+}
+
+TEST_CASE("kg/t is N/kN", "[fast]") {
+  const TemporaryFolder folder;
+  write_file(folder.file("tires.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN"));
+  write_file(folder.file("tonnes.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_kg_per_t"));
+  json one = json::parse(run_program("align tires.csv --json -", folder.path()).out);
+  json other = json::parse(run_program("align tonnes.csv --json -", folder.path()).out);
+  one.erase("file");
+  other.erase("file");
+  CHECK(one == other);
+}
+
+TEST_CASE("a machine of too large a sigma_m is told how often to measure", "[fast]") {
+  const TemporaryFolder folder;
+  write_file(folder.file("tires.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN", 0.2));
+  const auto run = run_program("align tires.csv", folder.path());
+  CHECK(run.status == 1);
+  // -0.03, 0, 0.23: standard deviation 0.1418; 1 + (0.1418/0.043)^2 = 11.9.
+  CHECK_THAT(flatten(run.out),
+             Contains("0.142 N/kN") && Contains("12 measurements of each tire") && Contains("NOT valid"));
+}
+
+TEST_CASE("an alignment ends with two years, a change of the machine or a drift", "[fast]") {
+  const TemporaryFolder folder;
+  std::string text = make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN");
+  write_file(folder.file("tires.csv"), text);
+  CHECK(run_program("align tires.csv --on 2028-06-06", folder.path()).status == 0);
+  const auto late = run_program("align tires.csv --on 2028-06-07", folder.path());
+  CHECK(late.status == 1);
+  CHECK_THAT(flatten(late.out), Contains("the alignment was valid until 2028-06-06"));
+  const auto changed = run_program("align tires.csv --machine-changed 2026-09-01", folder.path());
+  CHECK(changed.status == 1);
+  CHECK_THAT(flatten(changed.out), Contains("the machine was changed on 2026-09-01"));
+  CHECK(run_program("align tires.csv --machine-changed 2026-01-31", folder.path()).status == 0);
+
+  text.insert(text.find('\n'), ",use");
+  std::size_t at = text.find('\n') + 1;
+  while ((at = text.find('\n', at)) != std::string::npos) {
+    text.insert(at, ",");
+    at += 2;
+  }
+  for (int month = 1; month <= 12; ++month) {
+    const std::string two = (month < 10 ? "0" : "") + std::to_string(month);
+    text += "K1,C1,2026-" + two + "-15," + std::to_string(8.0 + 0.02 * month + (month % 2 == 0 ? 0.01 : -0.01)) +
+            ",,control\n";
+  }
+  write_file(folder.file("drift.csv"), text);
+  const auto drift = run_program("align drift.csv", folder.path());
+  INFO(drift.out << drift.err);
+  CHECK(drift.status == 1);
+  CHECK_THAT(flatten(drift.out), Contains("the control tires drift by +0.2"));
+}
+
+TEST_CASE("a set that breaks rules is aligned on demand, but is not valid", "[fast]") {
+  const auto run = run_program("align '" ROLLRIG_SOURCE_DIR "/tests/bad_input/align_four_tires.csv' --preliminary");
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK_THAT(flatten(run.out), Contains("NOT valid") && Contains(">= 5 NO"));
+}
+
+TEST_CASE("a value outside the tires, and one of an alignment that is not valid, have their warning", "[fast]") {
+  const TemporaryFolder folder;
+  write_file(folder.file("tires.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN"));
+  CHECK(run_program("align tires.csv --on 2030-01-01 --json late.json", folder.path()).status == 1);
+  const auto run = run_program("align --apply late.json --rrc 13.2", folder.path());
+  CHECK(run.status == 0);
+  CHECK_THAT(flatten(run.out), Contains("extrapolated") && Contains("not valid"));
+}

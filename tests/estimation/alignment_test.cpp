@@ -1,0 +1,217 @@
+// The line of an alignment and what a value on it is worth: a published data set, closed forms, simulated laboratories.
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "estimation/alignment/alignment.h"
+#include "estimation/alignment/alignment_rules.h"
+#include "estimation/alignment/line_fit.h"
+#include "sim/core/error.h"
+#include "sim/core/random.h"
+
+using namespace rollrig;
+using namespace rollrig::estimation;
+
+namespace {
+
+/// NIST StRD "Norris": calibration of ozone monitors, {y, x}
+/// (https://www.itl.nist.gov/div898/strd/lls/data/Norris.shtml).
+const std::vector<std::pair<double, double>> kNorris{
+    {0.1, 0.2},     {338.8, 337.4}, {118.1, 118.2}, {888.0, 884.6}, {9.2, 10.1},    {228.1, 226.5},
+    {668.5, 666.3}, {998.5, 996.3}, {449.1, 448.6}, {778.9, 777.0}, {559.2, 558.2}, {0.3, 0.4},
+    {0.1, 0.6},     {778.1, 775.5}, {668.8, 666.9}, {339.3, 338.0}, {448.9, 447.5}, {10.8, 11.6},
+    {557.7, 556.0}, {228.3, 228.1}, {998.0, 995.8}, {888.8, 887.6}, {119.6, 120.2}, {0.3, 0.3},
+    {0.6, 0.3},     {557.6, 556.8}, {339.3, 339.1}, {888.0, 887.2}, {998.5, 999.0}, {778.9, 779.0},
+    {10.2, 11.1},   {117.6, 118.3}, {228.9, 229.2}, {668.4, 669.1}, {449.2, 448.9}, {0.2, 0.5}};
+
+const std::vector<double> kTrue{6.5, 7.5, 8.6, 9.4, 10.7};  // of five tires on the candidate machine
+constexpr double kA2 = 0.93, kB2 = 0.35;
+
+/// A simulated alignment: three used measurements of each tire on both machines.
+struct Laboratories {
+  LineFit fit;
+  AlignmentLine line;
+};
+Laboratories simulate(RandomStream& random, double sigma_m, double sigma_l, double between_sd = 0.0) {
+  std::vector<std::vector<double>> candidate, reference;
+  std::vector<double> x, y;
+  for (const double truth : kTrue) {
+    const double of_reference = kA2 * truth + kB2 + between_sd * random.normal();
+    candidate.push_back({});
+    reference.push_back({});
+    for (int i = 0; i < 3; ++i) {
+      candidate.back().push_back(truth + sigma_m * random.normal());
+      reference.back().push_back(of_reference + sigma_l * random.normal());
+    }
+    x.push_back((candidate.back()[0] + candidate.back()[1] + candidate.back()[2]) / 3.0);
+    y.push_back((reference.back()[0] + reference.back()[1] + reference.back()[2]) / 3.0);
+  }
+  const ScatterEstimate of_candidate = pool_repeats(candidate), of_reference = pool_repeats(reference);
+  Laboratories made;
+  made.fit = fit_line(x, y,
+                      {of_candidate.sd / std::sqrt(3.0), of_reference.sd / std::sqrt(3.0),
+                       of_candidate.degrees_of_freedom + of_reference.degrees_of_freedom});
+  const LineFit& fit = made.fit;
+  made.line = {1.0,
+               0.0,
+               fit.slope,
+               fit.offset,
+               5.0,
+               fit.mean_x,
+               fit.Sxx,
+               fit.sd,
+               fit.freedom,
+               fit.between_sd,
+               3.0,
+               of_candidate.sd,
+               of_candidate.degrees_of_freedom};
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("the line of a published calibration has the certified numbers", "[published]") {
+  std::vector<double> x, y;
+  for (const auto& [at_y, at_x] : kNorris) {
+    x.push_back(at_x);
+    y.push_back(at_y);
+  }
+  const LineFit fit = fit_line(x, y, {});
+  CHECK(fit.slope == Approx(1.00211681802045).epsilon(1e-12));
+  CHECK(fit.offset == Approx(-0.262323073774029).epsilon(1e-10));
+  CHECK(fit.slope_sd() == Approx(0.429796848199937e-03).epsilon(1e-9));
+  CHECK(fit.offset_sd() == Approx(0.232818234301152).epsilon(1e-9));
+  CHECK(fit.residual_sd == Approx(0.884796396144373).epsilon(1e-10));
+}
+
+TEST_CASE("leverages of a line add up to two, and its ends have the largest", "[fast]") {
+  RandomStream random(3, "leverage");
+  const LineFit fit = simulate(random, 0.05, 0.05).fit;
+  double sum = 0.0, residuals = 0.0;
+  for (const LinePoint& point : fit.points) {
+    sum += point.leverage;
+    residuals += point.residual;
+  }
+  CHECK(sum == Approx(2.0));
+  CHECK(std::abs(residuals) < 1e-12);
+  CHECK(fit.points.back().leverage > fit.points[2].leverage);
+}
+
+TEST_CASE("the repeats of groups are pooled by their degrees of freedom", "[fast]") {
+  // Two groups of unequal size: (2 + 0.5)/(2 + 1), by hand.
+  const ScatterEstimate pooled = pool_repeats({{7.0, 8.0, 9.0}, {5.0, 6.0}, {4.0}});
+  CHECK(pooled.degrees_of_freedom == 3.0);
+  CHECK(pooled.sd == Approx(std::sqrt(2.5 / 3.0)));
+  // Chi-square of 3 degrees of freedom at 2.5 % and 97.5 %: 0.2158, 9.348 (any table).
+  CHECK(pooled.low_95 == Approx(pooled.sd * std::sqrt(3.0 / 9.348)).epsilon(1e-3));
+  CHECK(pooled.high_95 == Approx(pooled.sd * std::sqrt(3.0 / 0.2158)).epsilon(1e-3));
+  CHECK_THROWS_AS(pool_repeats({{7.0}, {8.0}}), std::invalid_argument);
+}
+
+TEST_CASE("a machine of larger scatter measures more often, as Section 5 has it", "[fast]") {
+  CHECK(calc_measurements(kRulesC1C2, 0.02) == 4);
+  CHECK(calc_measurements(kRulesC1C2, 0.075) == 4);
+  CHECK(calc_measurements(kRulesC1C2, 0.0751) == 5);  // 1 + 3.05
+  CHECK(calc_measurements(kRulesC1C2, 0.100) == 7);   // 1 + 5.41
+  CHECK(calc_measurements(kRulesC3, 0.0601) == 4);    // 1 + 2.95
+  CHECK(calc_measurements(kRulesC3, 0.080) == 7);     // 1 + 5.22
+}
+
+TEST_CASE("errors of the measured values make the slope too small by the attenuation", "[fast]") {
+  RandomStream random(11, "attenuation");
+  const double sigma_m = 0.6;  // far beyond a machine's, so that the bias is seen
+  double slope = 0.0, attenuation = 0.0;
+  constexpr int kTimes = 4000;
+  for (int i = 0; i < kTimes; ++i) {
+    const LineFit fit = simulate(random, sigma_m, 0.0).fit;
+    slope += fit.slope / kTimes;
+    attenuation += fit.attenuation / kTimes;
+  }
+  const double bias = slope / kA2 - 1.0;
+  CHECK(bias < -0.03);
+  CHECK(-bias == Approx(attenuation).epsilon(0.15));  // first order, and three standard deviations of the mean of 4000
+}
+
+TEST_CASE("the interval of an aligned value holds the reference's value as often as it says", "[fast]") {
+  struct Case {
+    double sigma_m, sigma_l, between_sd, least;
+  };
+  // More than 0.95 where the larger of two standard deviations is taken; less where the tires scatter by themselves,
+  // and five of them happen to hide it.
+  for (const Case& each : {Case{0.05, 0.04, 0.0, 0.94}, Case{0.02, 0.06, 0.0, 0.94}, Case{0.04, 0.03, 0.08, 0.905}}) {
+    RandomStream random(29, "coverage");
+    int covered = 0;
+    constexpr int kTimes = 4000;
+    double of_slope = 0.0;
+    for (int i = 0; i < kTimes; ++i) {
+      const Laboratories made = simulate(random, each.sigma_m, each.sigma_l, each.between_sd);
+      const double truth = 6.5 + 4.2 * random.uniform();
+      const double of_reference = kA2 * truth + kB2 + each.between_sd * random.normal();
+      const UncertainValue aligned = align_value(made.line, truth + each.sigma_m * random.normal(), 1);
+      covered += std::abs(aligned.value - of_reference) <= aligned.coverage_factor * aligned.sd ? 1 : 0;
+      of_slope += std::abs(made.fit.slope - kA2) <= made.fit.coverage_factor() * made.fit.slope_sd() ? 1.0 : 0.0;
+    }
+    INFO(each.sigma_m << " " << each.sigma_l << " " << each.between_sd);
+    CHECK(covered / double(kTimes) > each.least);
+    CHECK(covered / double(kTimes) < 0.99);
+    CHECK(of_slope / kTimes > 0.93);
+  }
+}
+
+TEST_CASE("an aligned value is best in the middle, and repeats take away their part only", "[fast]") {
+  RandomStream random(5, "value");
+  Laboratories made = simulate(random, 0.05, 0.04);
+  const double middle = made.line.mean_x;
+  CHECK(align_value(made.line, middle, 1).sd < align_value(made.line, middle + 2.0, 1).sd);
+  CHECK(align_value(made.line, middle - 2.0, 1).sd == Approx(align_value(made.line, middle + 2.0, 1).sd));
+  const UncertainValue many = align_value(made.line, middle, 1000000);
+  const double rest = std::hypot(made.line.line_sd / std::sqrt(5.0), made.line.between_sd);
+  CHECK(many.sd == Approx(rest).epsilon(1e-3));
+  const UncertainValue plain = align_value(made.line, 8.0, 2);
+  made.line.A1 = 2.0;
+  made.line.B1 = -1.0;
+  const UncertainValue scaled = align_value(made.line, 8.0, 2);
+  CHECK(scaled.value == Approx(2.0 * plain.value - 1.0));
+  CHECK(scaled.sd == Approx(2.0 * plain.sd));
+  CHECK(scaled.coverage_factor == Approx(plain.coverage_factor));
+}
+
+TEST_CASE("a tire that is off the line is seen, and the scatter that repeats cannot explain", "[fast]") {
+  std::vector<double> x = kTrue, y;
+  x.push_back(8.0);
+  RandomStream random(8, "odd tire");
+  for (const double value : x) y.push_back(kA2 * value + kB2 + 0.01 * random.normal());
+  const RepeatScatter repeats{0.01, 0.01, 24.0};
+  CHECK(fit_line(x, y, repeats).lack_of_fit_p > 0.01);
+  y[2] += 0.3;
+  const LineFit fit = fit_line(x, y, repeats);
+  CHECK(fit.lack_of_fit_p < 1e-4);
+  CHECK(fit.points[2].p_value < 0.05);
+  CHECK(fit.points[2].studentized > 0.0);
+  for (const std::size_t i : {0u, 1u, 3u, 4u, 5u}) CHECK(fit.points[i].p_value > fit.points[2].p_value);
+  CHECK(fit.between_sd > 0.05);
+}
+
+TEST_CASE("a line needs three points of different x", "[fast]") {
+  CHECK_THROWS_AS(fit_line({1.0, 2.0}, {1.0, 2.0}, {}), std::invalid_argument);
+  CHECK_THROWS_AS(fit_line({1.0, 1.0, 1.0}, {1.0, 2.0, 3.0}, {}), std::invalid_argument);
+  const LineFit exact = fit_line({1.0, 2.0, 4.0}, {3.0, 5.0, 9.0}, {});
+  CHECK(exact.slope == Approx(2.0));
+  CHECK(exact.offset == Approx(1.0));
+  CHECK(exact.residual_sd < 1e-12);
+}
+
+TEST_CASE("an alignment is valid for two years to the day", "[fast]") {
+  const double leap_day_s = read_day_s("2024-02-29", "--on");
+  CHECK(format_day(leap_day_s) == "2024-02-29");
+  CHECK(format_day(add_years(leap_day_s, 2)) == "2026-02-28");
+  CHECK(format_day(add_years(read_day_s("2026-03-02", "--on"), 2)) == "2028-03-02");
+  for (const char* wrong : {"02.03.2026", "2026-13-01", "2026-02-30", "tomorrow", "", "1066-10-14"}) {
+    INFO(wrong);
+    CHECK_THROWS_AS(read_day_s(wrong, "--on"), InputError);
+  }
+}

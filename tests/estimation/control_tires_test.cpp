@@ -1,0 +1,86 @@
+// Control tires: a drift that is there is found, one that is not is not, and a step stands out.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "estimation/alignment/control_tires.h"
+#include "sim/core/random.h"
+
+using namespace rollrig;
+using namespace rollrig::estimation;
+
+namespace {
+
+constexpr double kDay = 86400.0;
+
+/// Two control tires, a measurement a month, with a drift in N/kN a year.
+std::vector<ControlTire> make_controls(RandomStream& random, double drift_per_year, int months = 24, double sd = 0.04) {
+  std::vector<ControlTire> tires{{"K1", {}}, {"K2", {}}};
+  for (int month = 0; month < months; ++month) {
+    const double time_s = 28.0 * kDay * month;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double level = i == 0 ? 7.9 : 10.2;
+      tires[i].measurements.push_back(
+          {time_s, level + drift_per_year * time_s / (365.25 * kDay) + sd * random.normal(), true});
+    }
+  }
+  return tires;
+}
+
+}  // namespace
+
+TEST_CASE("a drift of the machine is found with an interval that holds it", "[fast]") {
+  RandomStream random(1, "drift");
+  int covered = 0, found = 0;
+  constexpr int kTimes = 400;
+  for (int i = 0; i < kTimes; ++i) {
+    const ControlMonitoring seen = watch_control_tires(make_controls(random, 0.06));
+    REQUIRE(seen.drift.has_value());
+    covered += seen.drift->low_95 <= 0.06 && 0.06 <= seen.drift->high_95 ? 1 : 0;
+    found += has_drift(seen) ? 1 : 0;
+  }
+  CHECK(covered / double(kTimes) == Approx(0.95).margin(0.033));  // three standard deviations of 400 draws
+  CHECK(found / double(kTimes) > 0.9);
+}
+
+TEST_CASE("a machine that does not drift is seldom said to", "[fast]") {
+  RandomStream random(2, "no drift");
+  int found = 0, in_control = 0;
+  constexpr int kTimes = 1000;
+  for (int i = 0; i < kTimes; ++i) {
+    const ControlMonitoring seen = watch_control_tires(make_controls(random, 0.0));
+    found += has_drift(seen) ? 1 : 0;
+    in_control += is_out_of_control(seen.charts[0]) ? 0 : 1;
+  }
+  CHECK(found / double(kTimes) < 0.02);       // level 0.01
+  CHECK(in_control / double(kTimes) > 0.75);  // 24 points, limits that are estimated from them
+}
+
+TEST_CASE("the standard deviation of a chart does not take in its drift", "[fast]") {
+  RandomStream random(3, "range");
+  double sd = 0.0;
+  constexpr int kTimes = 300;
+  for (int i = 0; i < kTimes; ++i) {
+    sd += watch_control_tires(make_controls(random, 0.5, 36)).charts[0].sd_N_per_kN / kTimes;
+  }
+  CHECK(sd == Approx(0.04).epsilon(0.25));  // a month's drift of 0.04 N/kN adds to neighbors; all of it would be 0.4
+}
+
+TEST_CASE("one measurement that falls out is named by its place, a gap by its days", "[fast]") {
+  RandomStream random(4, "step");
+  std::vector<ControlTire> tires = make_controls(random, 0.0);
+  tires[1].measurements[9].rrc_N_per_kN += 0.4;
+  tires[1].measurements.erase(tires[1].measurements.begin() + 15);
+  const ControlMonitoring seen = watch_control_tires(tires);
+  REQUIRE(seen.charts[1].outside.size() == 1);
+  CHECK(seen.charts[1].outside[0] == 9);
+  CHECK(is_out_of_control(seen.charts[1]));
+  CHECK(seen.charts[1].largest_gap_days == Approx(56.0));
+  CHECK(seen.charts[0].largest_gap_days == Approx(28.0));
+}
+
+TEST_CASE("too few control measurements say nothing of a drift", "[fast]") {
+  RandomStream random(5, "few");
+  CHECK_FALSE(watch_control_tires({}).drift.has_value());
+  CHECK_FALSE(watch_control_tires(make_controls(random, 0.1, 2)).drift.has_value());
+  CHECK_FALSE(is_out_of_control(watch_control_tires(make_controls(random, 0.1, 1)).charts[0]));
+}
