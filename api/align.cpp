@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 
 #include "estimation/alignment/alignment.h"
 #include "report/alignment_page.h"
