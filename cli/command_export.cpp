@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
+#include <utility>
+#include <vector>
 
+#include "cli/coefficient_outputs.h"
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "rollrig/export.h"
@@ -14,29 +18,41 @@ struct ExportOptions {
   std::string source;
   std::string mat;
   std::string hdf5;
+  CoefficientOutputs coefficients;
   BadRows bad_rows = BadRows::kRefuse;
   bool quiet = false;
 };
 
-int export_command(const ExportOptions& options) {
-  if (options.mat.empty() && options.hdf5.empty()) {
-    throw usage_error("no file to write is given", "", "", "--mat FILE, --hdf5 FILE, or both");
-  }
-  const OutputFiles files({{"--mat", options.mat}, {"--hdf5", options.hdf5}});
+/// Paths and contents of the files, all made before one is written.
+std::vector<std::pair<std::string, std::string>> make_exports(const ExportOptions& options, std::string& warnings) {
+  std::vector<std::pair<std::string, std::string>> files = options.coefficients.make(options.source);
+  if (options.mat.empty() && options.hdf5.empty()) return files;
   const Export made = read_export(options.source, options.bad_rows);
-  // Both are made before one is written.
-  const std::string mat = options.mat.empty() ? "" : made.make_mat();
-  const std::string hdf5 = options.hdf5.empty() ? "" : made.make_hdf5();
-  files.require_no_input();
-  std::vector<StagedOutput> staged;
-  if (!mat.empty()) staged.emplace_back(options.mat, mat);
-  if (!hdf5.empty()) staged.emplace_back(options.hdf5, hdf5);
-  commit_all(staged);
-  if (options.quiet || options.mat == "-" || options.hdf5 == "-") return kDone;
-  std::cout << format_warnings(made.warnings);
-  for (const std::string& file : {options.mat, options.hdf5}) {
-    if (!file.empty()) std::cout << fmt::format("written to {}\n", file);
+  warnings = format_warnings(made.warnings);
+  if (!options.mat.empty()) files.emplace_back(options.mat, made.make_mat());
+  if (!options.hdf5.empty()) files.emplace_back(options.hdf5, made.make_hdf5());
+  return files;
+}
+
+int export_command(const ExportOptions& options) {
+  if (options.mat.empty() && options.hdf5.empty() && options.coefficients.are_empty()) {
+    throw usage_error("no file to write is given", "", "",
+                      "--mat FILE, --hdf5 FILE, or both; of a fit of J2452 --tydex, --tir, --simscape, --fastsim, "
+                      "--co2mpas");
   }
+  std::vector<OutputFile> outputs = options.coefficients.list_files();
+  outputs.insert(outputs.begin(), {{"--mat", options.mat}, {"--hdf5", options.hdf5}});
+  const OutputFiles output_files(outputs);
+  std::string warnings;
+  const auto files = make_exports(options, warnings);
+  output_files.require_no_input();
+  std::vector<StagedOutput> staged;
+  for (const auto& [path, content] : files) staged.emplace_back(path, content);
+  commit_all(staged);
+  const bool is_taken = std::any_of(files.begin(), files.end(), [](const auto& file) { return file.first == "-"; });
+  if (options.quiet || is_taken) return kDone;
+  std::cout << warnings;
+  for (const auto& file : files) std::cout << fmt::format("written to {}\n", file.first);
   return kDone;
 }
 
@@ -44,14 +60,17 @@ int export_command(const ExportOptions& options) {
 
 void add_export_command(CLI::App& app, Action& action) {
   const auto [command, options] = add_command<ExportOptions>(
-      app, action, "export", "Write a result, a measurement set or a recording for MATLAB (.mat) or as HDF5",
+      app, action, "export",
+      "Write a result, a measurement set or a recording for MATLAB (.mat) or as HDF5, or a fit's coefficients",
       &export_command);
   command
-      ->add_option("source", options->source,
-                   "Folder that run --out or --write-set wrote, a measurement set, or a recording.csv")
+      ->add_option(
+          "source", options->source,
+          "Folder that run --out or --write-set wrote, a measurement set, a recording.csv, or fit.json of fit j2452")
       ->required();
   add_output_option(*command, "--mat", options->mat, "File for MATLAB, version 5; - for standard output");
   add_output_option(*command, "--hdf5", options->hdf5, "File in HDF5; - for standard output");
+  options->coefficients.add_to(*command);
   add_skip_bad_rows(*command, options->bad_rows);
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }

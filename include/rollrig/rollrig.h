@@ -15,6 +15,7 @@
 #include "progress.h"
 #include "regress.h"
 #include "result.h"
+#include "rolling_law.h"
 #include "run.h"
 #include "scaffold.h"
 #include "sweep.h"

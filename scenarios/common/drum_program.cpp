@@ -84,6 +84,12 @@ void DrumProgram::roll(const std::string& name, double duration_s, std::optional
   append(name, duration_s, speed_m_s_);
 }
 
+void DrumProgram::change_speed(const std::string& name, double duration_s, double speed_m_s,
+                               std::optional<double> load_N) {
+  load_N_ = load_N.value_or(load_N_);
+  append(name, duration_s, speed_m_s);
+}
+
 void DrumProgram::follow(const std::string& name, const measurements::MeasuredRun& run, const rigs::MachineKind& kind) {
   sim::Phase phase = measurements::make_recorded_program(run, kind).phases.front();
   phase.name = name;

@@ -33,6 +33,9 @@ class DrumProgram {
   void roll(const std::string& name, double duration_s, std::optional<double> load_N = std::nullopt);
   /// The same under skim load.
   void skim(const std::string& name, double duration_s) { roll(name, duration_s, skim_load_N_); }
+  /// A change to another speed at constant acceleration, under the load of the phase before it unless one is given.
+  void change_speed(const std::string& name, double duration_s, double speed_m_s,
+                    std::optional<double> load_N = std::nullopt);
   /// Follows given inputs, `run`'s first row being now: load held from row to row, all else linear (formats.md).
   void follow(const std::string& name, const measurements::MeasuredRun& run, const rigs::MachineKind& kind);
   /// Ends the phase appended last when the tire reaches a temperature from below.

@@ -70,10 +70,12 @@ TEST_CASE("the two fidelities agree on every drum scenario", "[fast]") {
   for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
     if (scenario->has_vehicle) continue;  // those: vehicle_fidelities_test.cpp
     if (scenario->fidelities.size() < 2) continue;
-    const bool needs_file = scenario->text.name == "follow_drum";
     const std::string file = std::string(ROLLRIG_SOURCE_DIR) + "/assets/regression/follow_drum_a50.csv";
-    compare(scenario->text.name, "a50",
-            needs_file ? std::vector<std::string>{"program=" + file} : std::vector<std::string>{});
+    std::vector<std::string> settings;
+    if (scenario->text.name == "follow_drum") settings = {"program=" + file};
+    // A run-down of a minute from 15 km/h ends with so small a torque that 0.01 N m of it is more than the tolerance.
+    if (scenario->text.name == "sae_j2452") settings = {"run_up_s=10"};
+    compare(scenario->text.name, "a50", settings);
   }
 }
 

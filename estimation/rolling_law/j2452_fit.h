@@ -1,0 +1,54 @@
+#pragma once
+/// The law of SAE J2452 from points (`rollrig fit j2452`).
+
+#include "estimation/rolling_law/j2452_law.h"
+#include "estimation/rolling_law/regression.h"
+
+namespace rollrig::estimation {
+
+/// A force at one condition, or a mean over a drive, with its standard deviation.
+struct ForceEstimate {
+  double value_N = 0.0;
+  double sd_N = 0.0;
+};
+
+struct J2452Fit {
+  J2452Law law;
+  std::vector<ParameterEstimate> coefficients;  // alpha, beta, a, b, c
+  std::vector<FittedPoint> points;
+  RegressionStatistics statistics;
+  std::vector<std::string> warnings;
+
+  /// At one condition.
+  ForceEstimate estimate_force(const ReferenceCondition& at) const;
+  /// The mean over a drive.
+  ForceEstimate estimate_mean(double pressure_Pa, double load_N, const SpeedMoments& moments) const;
+  /// Of one force that is measured anew: the law's and its own scatter.
+  double calc_prediction_sd_N(const ReferenceCondition& at) const;
+
+  // The fit itself, in the scaling in which it is well conditioned: F = F0 (P/P0)^alpha (Z/Z0)^beta (q0 + q1 x + q2
+  // x^2), x = (v - v0)/h; covariance of alpha, beta, q0, q1, q2.
+  Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
+  Eigen::Vector3d q = Eigen::Vector3d::Zero();
+  double pressure_0_Pa = 1.0;
+  double load_0_N = 1.0;
+  double force_0_N = 1.0;
+  double speed_0_m_s = 0.0;
+  double half_range_m_s = 1.0;
+
+ private:
+  ForceEstimate estimate(double pressure_Pa, double load_N, double mean_x, double mean_x2) const;
+};
+
+/// Nonlinear least squares of forces in N, all points with the same weight.
+///
+/// Standard deviations follow from the residuals, intervals of 95 % from Student's distribution. The intervals of a, b
+/// and c hold the uncertainty of the exponents: a is the force at 1 kPa, 1 N and standstill, far from every point, and
+/// moves with them. Each is a product of two numbers that are nearly normal, and its interval holds the values that it
+/// takes over their 95 % ellipse (likelihood ratio).
+/// Errors    InputError: fewer than six points, fewer than two pressures or loads, fewer than three speeds; RunFailure:
+///           no convergence, or pressure and load that vary together
+/// Checked   tests/estimation/rolling_law_test.cpp, rolling_law_coverage_test.cpp
+J2452Fit fit_j2452(const std::vector<RollingPoint>& points);
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,115 @@
+#include "estimation/rolling_law/regression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "sim/core/error.h"
+
+namespace rollrig::estimation {
+namespace {
+
+bool is_same_condition(const RollingPoint& a, const RollingPoint& b) {
+  constexpr double kSame = 0.005;
+  const auto same = [](double x, double y) { return std::abs(x - y) <= kSame * std::max(x, y); };
+  return same(a.speed_m_s, b.speed_m_s) && same(a.load_N, b.load_N) && same(a.pressure_Pa, b.pressure_Pa);
+}
+
+/// Indices of points that share a condition with the first of their group.
+std::vector<std::vector<std::size_t>> group_repeats(const std::vector<FittedPoint>& points) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<std::size_t>& members) {
+      return is_same_condition(points[members.front()].point, points[i].point);
+    });
+    if (group == groups.end()) {
+      groups.push_back({i});
+    } else {
+      group->push_back(i);
+    }
+  }
+  return groups;
+}
+
+/// Scatter of the residuals within the groups, so that what the law says of slightly different conditions is out.
+void put_lack_of_fit(const std::vector<FittedPoint>& points, double squares_N2, RegressionStatistics& statistics) {
+  double pure_N2 = 0.0;
+  int pure_freedom = 0;
+  for (const std::vector<std::size_t>& group : group_repeats(points)) {
+    if (group.size() < 2) continue;
+    statistics.repeated_points += static_cast<int>(group.size());
+    double mean_N = 0.0;
+    for (const std::size_t i : group) mean_N += points[i].residual_N() / static_cast<double>(group.size());
+    for (const std::size_t i : group) pure_N2 += std::pow(points[i].residual_N() - mean_N, 2);
+    pure_freedom += static_cast<int>(group.size()) - 1;
+  }
+  const int lack_freedom = statistics.freedom - pure_freedom;
+  if (pure_freedom < 1 || lack_freedom < 1 || pure_N2 <= 0.0) return;
+  LackOfFit lack;
+  lack.pure_error_freedom = pure_freedom;
+  lack.pure_error_sd_N = std::sqrt(pure_N2 / pure_freedom);
+  lack.F = std::max(0.0, squares_N2 - pure_N2) / lack_freedom / (pure_N2 / pure_freedom);
+  lack.p = boost::math::cdf(boost::math::complement(boost::math::fisher_f(lack_freedom, pure_freedom), lack.F));
+  statistics.lack_of_fit = lack;
+}
+
+}  // namespace
+
+RegressionStatistics calc_statistics(const std::vector<FittedPoint>& points, int coefficients) {
+  RegressionStatistics statistics;
+  statistics.freedom = static_cast<int>(points.size()) - coefficients;
+  double squares_N2 = 0.0;
+  for (const FittedPoint& point : points) {
+    squares_N2 += point.residual_N() * point.residual_N();
+    statistics.largest_residual =
+        std::max(statistics.largest_residual, std::abs(point.residual_N() / point.point.force_N));
+  }
+  if (statistics.freedom > 0) statistics.residual_sd_N = std::sqrt(squares_N2 / statistics.freedom);
+  put_lack_of_fit(points, squares_N2, statistics);
+  return statistics;
+}
+
+Eigen::MatrixXd invert_normal(const Eigen::MatrixXd& jacobian, std::vector<double>& leverages) {
+  constexpr double kUndecided = 1e-7;  // Assumed: of unit columns, what rounding leaves of a direction without effect
+  const Eigen::Index count = jacobian.cols();
+  const Eigen::VectorXd lengths = jacobian.colwise().norm();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(kUndecided);
+  if (lengths.allFinite() && lengths.minCoeff() > 0.0) qr.compute(jacobian * lengths.cwiseInverse().asDiagonal());
+  if (!lengths.allFinite() || !(lengths.minCoeff() > 0.0) || qr.rank() < count) {
+    throw RunFailure("the points do not decide the coefficients: speed, load and pressure must vary independently");
+  }
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), count);
+  leverages.resize(static_cast<std::size_t>(jacobian.rows()));
+  for (Eigen::Index row = 0; row < jacobian.rows(); ++row) {
+    leverages[static_cast<std::size_t>(row)] = q.row(row).squaredNorm();
+  }
+  const Eigen::MatrixXd r = qr.matrixR().topRows(count).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd of_units =
+      qr.colsPermutation() * r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd inverse = lengths.cwiseInverse().asDiagonal() * of_units;
+  return inverse * inverse.transpose();
+}
+
+double calc_student_reach(int freedom) {
+  if (freedom < 1) return std::numeric_limits<double>::infinity();
+  return boost::math::quantile(boost::math::students_t(freedom), 0.975);
+}
+
+ParameterEstimate make_student_estimate(const std::string& name, double value, double sd, int freedom,
+                                        const std::string& unit) {
+  ParameterEstimate estimate;
+  estimate.name = name;
+  estimate.value = value;
+  estimate.sd = freedom > 0 ? sd : std::numeric_limits<double>::quiet_NaN();
+  const double reach = freedom > 0 ? calc_student_reach(freedom) * sd : std::numeric_limits<double>::quiet_NaN();
+  estimate.low_95 = value - reach;
+  estimate.high_95 = value + reach;
+  estimate.unit = unit;
+  return estimate;
+}
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,58 @@
+#pragma once
+/// Statistics of a regression over points, a law of rolling resistance, say.
+
+#include <Eigen/Dense>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "estimation/rolling_law/rolling_points.h"
+#include "include/rollrig/result.h"
+
+namespace rollrig::estimation {
+
+/// A point and what the fit makes of it.
+struct FittedPoint {
+  RollingPoint point;
+  double fitted_N = 0.0;
+  double leverage = 0.0;  // diagonal of the hat matrix
+  double residual_N() const { return point.force_N - fitted_N; }
+};
+
+/// The F test of lack of fit: do the points leave the law by more than repeated points scatter?
+/// Equation  F = [(S - S_p) / (d - d_p)] / (S_p / d_p); p = P(F(d - d_p, d_p) > F)
+/// Symbols   S, d sum of squared residuals and degrees of freedom; S_p, d_p those of repeated points about their means
+/// Validity  normal errors of one standard deviation
+/// Source    Draper and Smith, Applied Regression Analysis, 3rd ed. (1998), 2.1
+struct LackOfFit {
+  double pure_error_sd_N = 0.0;
+  int pure_error_freedom = 0;
+  double F = 0.0;
+  double p = 1.0;
+};
+
+/// What the residuals of a fit say.
+struct RegressionStatistics {
+  int freedom = 0;                       // points less coefficients; 0: no scatter is known, no intervals
+  double residual_sd_N = 0.0;            // sqrt(S / freedom)
+  double largest_residual = 0;           // over the measured force [1]
+  int repeated_points = 0;               // points that share their condition with another
+  std::optional<LackOfFit> lack_of_fit;  // where points are repeated and the law leaves freedom
+};
+
+/// Points count as repeats where speed, load and pressure agree within 0.5 %. Assumed: what a machine holds.
+RegressionStatistics calc_statistics(const std::vector<FittedPoint>& points, int coefficients);
+
+/// (J^T J)^-1 by a QR decomposition of J with columns of unit length; `leverages` gets the diagonal of the hat matrix.
+/// Throws RunFailure where the points do not decide the coefficients.
+Eigen::MatrixXd invert_normal(const Eigen::MatrixXd& jacobian, std::vector<double>& leverages);
+
+/// Half of a 95 % interval by Student's distribution over the standard deviation; infinite without freedom.
+double calc_student_reach(int freedom);
+
+/// A number with its standard deviation and 95 % interval.
+ParameterEstimate make_student_estimate(const std::string& name, double value, double sd, int freedom,
+                                        const std::string& unit);
+
+}  // namespace rollrig::estimation

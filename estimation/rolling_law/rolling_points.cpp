@@ -1,0 +1,142 @@
+#include "estimation/rolling_law/rolling_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+
+#include "sim/core/csv.h"
+#include "sim/core/error.h"
+#include "sim/core/parse_json.h"
+#include "sim/core/units.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::estimation {
+namespace {
+
+constexpr const char* kSources =
+    "a CSV file with speed_km_h, load_N, pressure_kPa and rolling_resistance_N, or the folder or result.json of a run "
+    "of sae_j2452 or sae_j1269";
+
+// Ranges far beyond those of tires, so that most mistaken units are refused. Assumed.
+const Field kSpeed{"speed_km_h", between(1.0, 300.0), "Speed of the surface"};
+const Field kLoad{"load_N", between(100.0, 100000.0), "Load on the tire"};
+const Field kPressure{"pressure_kPa", between(50.0, 1500.0), "Gauge pressure"};
+const Field kForce{"rolling_resistance_N", {0.0, 5000.0, true, false}, "Rolling resistance"};
+
+RollingTest read_csv_points(const std::string& path) {
+  const CsvTable table = CsvTable::read(path);
+  const std::vector<double> speed_m_s = table.numbers(kSpeed);
+  const std::vector<double> load_N = table.numbers(kLoad);
+  const std::vector<double> pressure_Pa = table.numbers(kPressure);
+  const std::vector<double> force_N = table.numbers(kForce);
+  RollingTest test;
+  test.path = path;
+  for (std::size_t i = 0; i < table.row_count(); ++i) {
+    test.points.push_back({speed_m_s[i], load_N[i], pressure_Pa[i], force_N[i]});
+  }
+  return test;
+}
+
+/// A number of a record in SI units, checked against the range of its field.
+double read_record_number(const Json& record, const char* key, const Field& field, const std::string& path,
+                          std::size_t index) {
+  const auto found = record.is_object() ? record.find(key) : record.end();
+  const bool is_number = record.is_object() && found != record.end() && found->is_number();
+  const double value = is_number ? found->get<double>() : 0.0;
+  if (is_number && field.range.contains(value)) return unit_of_key(field.key).to_si(value);
+  throw InputError({is_number ? fmt::format("{} of step {} is out of range", key, index + 1)
+                              : fmt::format("step {} has no {}", index + 1, key),
+                    path, 0, fmt::format("result.steps[{}].{}", index, key), is_number ? fmt::format("{}", value) : "",
+                    field.range.to_string(), ""});
+}
+
+std::optional<double> find_result_number(const Json& result, const char* key) {
+  const auto found = result.find(key);
+  if (found == result.end() || !found->is_number()) return std::nullopt;
+  return unit_of_key(key).to_si(found->get<double>());
+}
+
+RollingTest read_result_points(const std::string& path, PressureTaken taken) {
+  const Json json = read_json(path);
+  const Json format = json.is_object() ? json.value("format", Json()) : Json();
+  if (format != "rollrig-result/1") {
+    throw InputError({"not a result of a run", path, 0, "format", format.is_string() ? format.get<std::string>() : "",
+                      kSources, ""});
+  }
+  const Json scenario = json.value("scenario", Json());
+  const Json result = json.value("result", Json::object());
+  const Json steps = result.is_object() ? result.value("steps", Json()) : Json();
+  if (!steps.is_array() || steps.empty()) {
+    throw InputError({"the result has no steps of speed, load and pressure", path, 0, "result.steps",
+                      scenario.is_string() ? scenario.get<std::string>() : "", kSources, ""});
+  }
+  const char* pressure_key = taken == PressureTaken::kSet ? "pressure_set_kPa" : "cavity_pressure_kPa";
+  RollingTest test;
+  test.path = path;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto number = [&](const char* key, const Field& field) {
+      return read_record_number(steps[i], key, field, path, i);
+    };
+    test.points.push_back({number("speed_km_h", kSpeed), number("load_N", kLoad), number(pressure_key, kPressure),
+                           number("rolling_resistance_N", kForce)});
+  }
+  test.maximum_load_N = find_result_number(result, "maximum_load_N");
+  test.base_pressure_Pa = find_result_number(result, "base_pressure_kPa");
+  const Json tire = json.value("tire", Json());
+  if (tire.is_string()) test.tire = tire.get<std::string>();
+  return test;
+}
+
+}  // namespace
+
+ReferenceCondition make_standard_reference(double maximum_load_N, double base_pressure_Pa) {
+  return {kReferenceLoadShare * maximum_load_N, base_pressure_Pa + kReferencePressureAboveBase_Pa, kReferenceSpeed_m_s};
+}
+
+RollingTest read_rolling_test(const std::string& path, PressureTaken taken) {
+  RollingTest test;
+  if (fs::is_directory(path)) {
+    const std::string file = (fs::path(path) / "result.json").string();
+    if (!fs::exists(file)) throw InputError({"the folder holds no result.json", path, 0, "", "", kSources, ""});
+    test = read_result_points(file, taken);
+  } else if (fs::path(path).extension() == ".json") {
+    test = read_result_points(path, taken);
+  } else {
+    test = read_csv_points(path);
+  }
+  test.warnings = doubt_points(test.points);
+  return test;
+}
+
+std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
+  constexpr double kLeast = 2e-3;  // Assumed: below it is no road tire; the best have 4 N/kN
+  constexpr double kMost = 30e-3;  // Assumed: of a cold tire at low pressure
+  if (points.empty()) return {};
+  std::vector<double> coefficients;
+  for (const RollingPoint& point : points) coefficients.push_back(point.force_N / point.load_N);
+  const auto middle = coefficients.begin() + static_cast<std::ptrdiff_t>(coefficients.size() / 2);
+  std::nth_element(coefficients.begin(), middle, coefficients.end());
+  if (*middle >= kLeast && *middle <= kMost) return {};
+  return {
+      fmt::format("the median of rolling resistance over load is {:.3g} N/kN, where tires have 4 to 15 N/kN: check "
+                  "that load and rolling resistance are in N",
+                  1e3 * *middle)};
+}
+
+std::size_t count_levels(std::vector<double> values) {
+  constexpr double kSame = 0.02;
+  std::sort(values.begin(), values.end());
+  std::size_t levels = 0;
+  double start = 0.0;
+  for (const double value : values) {
+    if (levels > 0 && value <= start * (1.0 + kSame)) continue;
+    start = value;
+    ++levels;
+  }
+  return levels;
+}
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,60 @@
+#pragma once
+/// Points of rolling resistance over speed, load and pressure, from which a law of a tire is fitted.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rollrig::estimation {
+
+/// One measured point.
+struct RollingPoint {
+  double speed_m_s = 0.0;
+  double load_N = 0.0;
+  double pressure_Pa = 0.0;  // gauge
+  double force_N = 0.0;      // rolling resistance, parasitic loss subtracted
+};
+
+/// Load and pressure at which one number stands for the tire, and the speed of a coefficient.
+struct ReferenceCondition {
+  double load_N = 0.0;
+  double pressure_Pa = 0.0;
+  double speed_m_s = 0.0;
+};
+
+constexpr double kReferenceLoadShare = 0.7;              // of the maximum load
+constexpr double kReferencePressureAboveBase_Pa = 20e3;  // above the base pressure
+constexpr double kReferenceSpeed_m_s = 80.0 / 3.6;
+
+/// The standard reference condition of SAE J2452: 70 % of the maximum load, 20 kPa above the base pressure, 80 km/h.
+/// Source    second-hand: https://grokipedia.com/page/sae_j2452, which cites the practice
+ReferenceCondition make_standard_reference(double maximum_load_N, double base_pressure_Pa);
+
+/// Which pressure of a simulated test is taken: the one that was set on the cold tire, or the warm one.
+enum class PressureTaken { kSet, kWarm };
+
+/// Points of a file, and what the file says of the tire.
+struct RollingTest {
+  std::string path;
+  std::string tire;  // empty where the file does not say
+  std::vector<RollingPoint> points;
+  std::optional<double> maximum_load_N;
+  std::optional<double> base_pressure_Pa;
+  std::vector<std::string> warnings;
+};
+
+/// Reads a CSV file with the columns speed_km_h, load_N, pressure_kPa and rolling_resistance_N, or result.json of the
+/// scenarios sae_j2452 and sae_j1269, or the folder that holds it. Other columns are passed over. `taken` is for
+/// results; a CSV file has one pressure.
+/// Errors   InputError: a missing column, a number outside of its range, another document
+/// Checked  tests/estimation/rolling_law_test.cpp, tests/bad_input
+RollingTest read_rolling_test(const std::string& path, PressureTaken taken = PressureTaken::kSet);
+
+/// Doubts that hold for each of the fits: a coefficient of rolling resistance that no tire has (units mistaken).
+std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points);
+
+/// How many values are different, where those within 2 % of the least of their group count as one. Assumed: 2 %, more
+/// than a machine misses its set value by, less than the steps of a test.
+std::size_t count_levels(std::vector<double> values);
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,264 @@
+// Laws of rolling resistance over speed, load and pressure: a published example, exact recovery, statistics against
+// independent computations, and what is refused.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "build_paths.h"
+#include "estimation/rolling_law/rolling_output.h"
+#include "scenarios/common/speed_trace.h"
+#include "sim/core/error.h"
+#include "tests/support/run_program.h"
+
+using namespace rollrig;
+using estimation::J2452Law;
+using estimation::RollingPoint;
+
+namespace {
+
+const J2452Law kTire{-0.42, 0.93, 0.055, 9.0e-5, 3.5e-7};
+
+RollingPoint make_point(double speed_km_h, double load_N, double pressure_kPa, double extra_N = 0.0) {
+  RollingPoint point{speed_km_h / 3.6, load_N, 1e3 * pressure_kPa, 0.0};
+  point.force_N = kTire.calc_force_N(point.pressure_Pa, point.load_N, point.speed_m_s) + extra_N;
+  return point;
+}
+
+/// Six speeds at four loads and pressures.
+std::vector<RollingPoint> make_points() {
+  std::vector<RollingPoint> points;
+  for (const auto& [load_N, pressure_kPa] :
+       {std::pair(2000.0, 250.0), std::pair(4000.0, 200.0), std::pair(6000.0, 300.0), std::pair(6000.0, 200.0)}) {
+    for (const double km_h : {115.0, 95.0, 75.0, 55.0, 35.0, 15.0}) {
+      points.push_back(make_point(km_h, load_N, pressure_kPa));
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("the law of SAE J2452 gives the forces of the example in 40 CFR 1037.528(h)(6)", "[fast]") {
+  struct Axle {
+    double tires, pressure_kPa, axle_load_N;
+    J2452Law law;
+    double high_N, low_N;  // at 28.86 and 5.84 m/s
+  };
+  const std::vector<Axle> axles{{2, 758.4, 51421.2, {-0.2435, 0.9576, 0.0434, 5.4e-5, 5.53e-7}, 365.6, 297.8},
+                                {8, 689.5, 55958.4, {-0.3146, 0.9914, 0.0504, 1.11e-4, 2.86e-7}, 431.4, 350.7},
+                                {8, 689.5, 45727.5, {-0.3982, 0.9756, 0.0656, 1.51e-4, 2.94e-7}, 231.7, 189.0}};
+  double high_N = 0.0;
+  for (const Axle& axle : axles) {
+    const auto force_N = [&axle](double speed_m_s) {
+      return axle.tires * axle.law.calc_force_N(1e3 * axle.pressure_kPa, axle.axle_load_N / axle.tires, speed_m_s);
+    };
+    // The example prints its coefficients with two to four digits: half a unit of the last digit of b alone is 0.3 N.
+    CHECK(force_N(28.86) == Approx(axle.high_N).margin(0.1));
+    CHECK(force_N(5.84) == Approx(axle.low_N).margin(0.1));
+    high_N += force_N(28.86);
+  }
+  CHECK(high_N == Approx(1028.7).margin(0.1));
+}
+
+TEST_CASE("points of a law give its coefficients back", "[fast]") {
+  const estimation::J2452Fit fit = estimation::fit_j2452(make_points());
+  CHECK(fit.law.alpha == Approx(kTire.alpha).epsilon(1e-8));
+  CHECK(fit.law.beta == Approx(kTire.beta).epsilon(1e-8));
+  CHECK(fit.law.a == Approx(kTire.a).epsilon(1e-7));
+  CHECK(fit.law.b == Approx(kTire.b).epsilon(1e-6));
+  CHECK(fit.law.c == Approx(kTire.c).epsilon(1e-6));
+  CHECK(fit.statistics.residual_sd_N < 1e-6);
+  CHECK(fit.statistics.freedom == 19);
+  CHECK(fit.warnings.empty());
+}
+
+TEST_CASE("the standard deviation of a force is that of a fit that is repeated with moved points", "[fast]") {
+  // Of a linear map from forces to the estimate, the variance is the sum of squared derivatives times s^2.
+  std::vector<RollingPoint> points = make_points();
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].force_N += 0.2 * std::sin(7.0 * static_cast<double>(i));
+  const estimation::J2452Fit fit = estimation::fit_j2452(points);
+  const estimation::ReferenceCondition at{4500.0, 230e3, 60.0 / 3.6};
+  constexpr double kStep_N = 1e-3;
+  double of_force = 0.0, of_alpha = 0.0, of_a = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<RollingPoint> moved = points;
+    moved[i].force_N += kStep_N;
+    const estimation::J2452Fit other = estimation::fit_j2452(moved);
+    of_force += std::pow((other.estimate_force(at).value_N - fit.estimate_force(at).value_N) / kStep_N, 2);
+    of_alpha += std::pow((other.law.alpha - fit.law.alpha) / kStep_N, 2);
+    of_a += std::pow((other.law.a - fit.law.a) / kStep_N, 2);
+  }
+  const double s = fit.statistics.residual_sd_N;
+  // 2 %: derivatives of the residuals' curvature are left out of the covariance
+  CHECK(fit.estimate_force(at).sd_N == Approx(s * std::sqrt(of_force)).epsilon(0.02));
+  CHECK(fit.coefficients[0].sd == Approx(s * std::sqrt(of_alpha)).epsilon(0.02));
+  CHECK(fit.coefficients[2].sd == Approx(s * std::sqrt(of_a)).epsilon(0.02));
+  CHECK(fit.estimate_force(at).value_N == Approx(fit.law.calc_force_N(at.pressure_Pa, at.load_N, at.speed_m_s)));
+  // Student's 97.5 % point of 19 degrees of freedom, from tables
+  CHECK(fit.coefficients[0].high_95 - fit.coefficients[0].value ==
+        Approx(2.093 * fit.coefficients[0].sd).epsilon(1e-3));
+  double leverages = 0.0;
+  for (const estimation::FittedPoint& point : fit.points) leverages += point.leverage;
+  CHECK(leverages == Approx(5.0));  // as many as coefficients
+}
+
+TEST_CASE("lack of fit: repeated points against a law that bends", "[fast]") {
+  const auto scatter = [](std::size_t i) { return i % 2 == 0 ? 0.1 : -0.1; };
+  std::vector<RollingPoint> good, bent;
+  for (std::size_t repeat = 0; repeat < 2; ++repeat) {
+    for (std::size_t i = 0; i < make_points().size(); ++i) {
+      RollingPoint point = make_points()[i];
+      point.force_N += scatter(repeat);
+      good.push_back(point);
+      point.force_N += 1.2 * std::cos(point.speed_m_s);  // what no coefficient of the law can follow
+      bent.push_back(point);
+    }
+  }
+  const estimation::J2452Fit law = estimation::fit_j2452(good);
+  REQUIRE(law.statistics.lack_of_fit.has_value());
+  CHECK(law.statistics.repeated_points == 48);
+  CHECK(law.statistics.lack_of_fit->pure_error_freedom == 24);
+  // each pair is 0.1 N above and below its mean: 48 squares of 0.01 over 24 degrees of freedom
+  CHECK(law.statistics.lack_of_fit->pure_error_sd_N == Approx(std::sqrt(48 * 0.01 / 24)));
+  CHECK(law.statistics.lack_of_fit->p > 0.9);
+  CHECK(law.warnings.empty());
+  const estimation::J2452Fit other = estimation::fit_j2452(bent);
+  CHECK(other.statistics.lack_of_fit->p < 1e-3);
+  REQUIRE(other.warnings.size() == 1);
+  CHECK_THAT(other.warnings[0], Catch::Contains("lack of fit"));
+  CHECK_FALSE(estimation::fit_j2452(make_points()).statistics.lack_of_fit.has_value());
+}
+
+TEST_CASE("the mean force over a drive is its work over its distance", "[fast]") {
+  // At constant speed it is the force itself.
+  const estimation::SpeedMoments constant = estimation::calc_speed_moments({0.0, 7.0, 10.0}, {20.0, 20.0, 20.0});
+  CHECK(estimation::calc_mean_force_N(kTire, 230e3, 4000.0, constant) ==
+        Approx(kTire.calc_force_N(230e3, 4000.0, 20.0)).epsilon(1e-12));
+  // On a cycle, work and distance by small steps.
+  for (const char* name : {"udds", "hwfet"}) {
+    const scenarios::SpeedTrace cycle = scenarios::read_speed_trace(name);
+    double work_J = 0.0, distance_m = 0.0;
+    for (std::size_t i = 1; i < cycle.time_s.size(); ++i) {
+      constexpr int kSteps = 50;
+      const double step_s = (cycle.time_s[i] - cycle.time_s[i - 1]) / kSteps;
+      for (int k = 0; k < kSteps; ++k) {
+        const double share = (k + 0.5) / kSteps;
+        const double v = cycle.speed_m_s[i - 1] + share * (cycle.speed_m_s[i] - cycle.speed_m_s[i - 1]);
+        work_J += kTire.calc_force_N(230e3, 4000.0, v) * v * step_s;
+        distance_m += v * step_s;
+      }
+    }
+    const auto moments = estimation::calc_speed_moments(cycle.time_s, cycle.speed_m_s);
+    CHECK(moments.distance_m == Approx(distance_m));
+    CHECK(estimation::calc_mean_force_N(kTire, 230e3, 4000.0, moments) == Approx(work_J / distance_m).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("SMERF is 0.55 of the urban and 0.45 of the highway mean, at 70 % load and 20 kPa above base", "[fast]") {
+  const estimation::J2452Fit fit = estimation::fit_j2452(make_points());
+  const auto moments = [](const char* name) {
+    const scenarios::SpeedTrace cycle = scenarios::read_speed_trace(name);
+    return estimation::calc_speed_moments(cycle.time_s, cycle.speed_m_s);
+  };
+  const auto at = estimation::make_standard_reference(6000.0, 240e3);
+  CHECK(at.load_N == Approx(4200.0));
+  CHECK(at.pressure_Pa == Approx(260e3));
+  const auto reference = estimation::evaluate_reference(fit, at, {"udds", "hwfet", moments("udds"), moments("hwfet")});
+  CHECK(reference.combined.value_N == Approx(0.55 * reference.urban.value_N + 0.45 * reference.highway.value_N));
+  CHECK(reference.urban.value_N == Approx(estimation::calc_mean_force_N(kTire, 260e3, 4200.0, moments("udds"))));
+  CHECK(reference.urban.value_N < reference.highway.value_N);  // this tire loses more at speed
+}
+
+TEST_CASE("points that do not decide the law are refused", "[fast]") {
+  using estimation::fit_j2452;
+  const auto refused = [](const std::vector<RollingPoint>& points, const char* words) {
+    CHECK_THROWS_WITH(fit_j2452(points), Catch::Contains(words));
+  };
+  std::vector<RollingPoint> points = make_points();
+  refused({points.begin(), points.begin() + 5}, "too few points");
+  std::vector<RollingPoint> one_pressure, one_load, two_speeds, together;
+  for (const double km_h : {30.0, 60.0, 90.0, 120.0}) {
+    for (const double share : {0.5, 0.7, 0.9}) {
+      one_pressure.push_back(make_point(km_h, 6000.0 * share, 240.0));
+      one_load.push_back(make_point(km_h, 4000.0, 240.0 * share));
+      together.push_back(make_point(km_h, 6000.0 * share, 300.0 * share));
+    }
+  }
+  for (const RollingPoint& point : make_points()) {
+    if (point.speed_m_s > 50.0 / 3.6 && point.speed_m_s < 80.0 / 3.6) two_speeds.push_back(point);
+  }
+  refused(one_pressure, "only 1 pressure");
+  refused(one_load, "only 1 load");
+  refused(two_speeds, "only 2 speeds");
+  CHECK_THROWS_AS(fit_j2452(together), RunFailure);  // only alpha + beta is decided
+}
+
+TEST_CASE("a coefficient that no tire has is doubted aloud: units", "[fast]") {
+  CHECK(estimation::doubt_points(make_points()).empty());
+  std::vector<RollingPoint> in_kgf = make_points();
+  for (RollingPoint& point : in_kgf) point.load_N /= 9.81;
+  REQUIRE(estimation::doubt_points(in_kgf).size() == 1);
+  CHECK_THAT(estimation::doubt_points(in_kgf)[0], Catch::Contains("check that load and rolling resistance are in N"));
+}
+
+TEST_CASE("a multipoint law: exact points, and least squares by pressure", "[fast]") {
+  // F = 2 + 0.006 Z + 100/P + 0.9 Z/P, P in kPa
+  const auto law = [](double load_N, double pressure_kPa) {
+    return 2.0 + 0.006 * load_N + 100.0 / pressure_kPa + 0.9 * load_N / pressure_kPa;
+  };
+  std::vector<RollingPoint> points;
+  for (const double load_N : {3000.0, 4200.0, 5400.0}) {
+    for (const double pressure_kPa : {210.0, 310.0}) {
+      points.push_back({80.0 / 3.6, load_N, 1e3 * pressure_kPa, law(load_N, pressure_kPa)});
+    }
+  }
+  const auto exact = estimation::fit_multipoint(points, estimation::MultipointForm::kBilinear);
+  const double truth[]{2.0, 0.006, 100.0, 0.9};
+  for (std::size_t i = 0; i < 4; ++i) CHECK(exact.coefficients[i].value == Approx(truth[i]).epsilon(1e-7));
+  CHECK(exact.estimate_force(4200.0, 260e3).value_N == Approx(law(4200.0, 260.0)));
+  CHECK(exact.warnings.empty());
+  // Z (A1 + A3/P) at two pressures is a line through the origin at each, whose slope has a closed form.
+  const auto lines = estimation::fit_multipoint(points, estimation::MultipointForm::kProportional);
+  for (const double pressure_kPa : {210.0, 310.0}) {
+    double products = 0.0, squares = 0.0;
+    for (const double load_N : {3000.0, 4200.0, 5400.0}) {
+      products += load_N * law(load_N, pressure_kPa);
+      squares += load_N * load_N;
+    }
+    CHECK(lines.coefficients[0].value + lines.coefficients[1].value / pressure_kPa == Approx(products / squares));
+  }
+  CHECK(lines.statistics.freedom == 4);
+}
+
+TEST_CASE("a multipoint law through as many points as coefficients knows no scatter", "[fast]") {
+  std::vector<RollingPoint> points;
+  for (const double load_N : {3000.0, 5400.0}) {
+    for (const double pressure_kPa : {210.0, 310.0}) points.push_back(make_point(80.0, load_N, pressure_kPa));
+  }
+  const auto fit = estimation::fit_multipoint(points, estimation::MultipointForm::kBilinear);
+  CHECK(fit.statistics.freedom == 0);
+  CHECK(std::isnan(fit.coefficients[0].sd));
+  REQUIRE(fit.warnings.size() == 1);
+  CHECK_THAT(fit.warnings[0], Catch::Contains("no standard deviation is known"));
+  points.push_back(make_point(60.0, 4000.0, 250.0));
+  CHECK_THROWS_WITH(estimation::fit_multipoint(points, estimation::MultipointForm::kBilinear),
+                    Catch::Contains("have one speed"));
+}
+
+TEST_CASE("points are read from CSV in the units of the columns, whatever else it holds", "[fast]") {
+  const tests::TemporaryFolder folder;
+  tests::write_file(folder.file("points.csv"),
+                    "day,load_kN,speed_km_h,pressure_kPa,load_N,rolling_resistance_N\n1,4,90,240,4000,31.5\n");
+  const auto test = estimation::read_rolling_test(folder.file("points.csv"));
+  REQUIRE(test.points.size() == 1);
+  CHECK(test.points[0].speed_m_s == Approx(25.0));
+  CHECK(test.points[0].load_N == 4000.0);
+  CHECK(test.points[0].pressure_Pa == 240e3);
+  CHECK(test.points[0].force_N == 31.5);
+  CHECK_FALSE(test.maximum_load_N.has_value());
+}
+
+TEST_CASE("levels: values within 2 % count as one", "[fast]") {
+  CHECK(estimation::count_levels({}) == 0);
+  CHECK(estimation::count_levels({100.0, 101.0, 99.5}) == 1);
+  CHECK(estimation::count_levels({100.0, 110.0, 101.0, 111.0, 200.0}) == 3);
+}
