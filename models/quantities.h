@@ -33,6 +33,7 @@ inline constexpr Quantity kMachineForce{"machine_force", "N"};
 inline constexpr Quantity kRollingResistance{"rolling_resistance", "N"};
 inline constexpr Quantity kParasiticLoss{"parasitic", "N"};
 inline constexpr Quantity kSpindleForce{"spindle_force", "N"};
+inline constexpr Quantity kMotorPower{"motor_power", "W"};  // mechanical, of the motor of a drum or belt
 inline constexpr Quantity kFrictionBrake{"friction_brake", "N"};
 
 }  // namespace rollrig::models::quantities

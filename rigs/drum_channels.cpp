@@ -71,6 +71,7 @@ std::vector<sim::Channel> make_drum_channels(const models::MachineTraits& machin
   add(quantities::kParasiticLoss, DrumIntegral::kParasitic);
   add(quantities::kSpindleForce, DrumIntegral::kSpindleForce);
   add(quantities::kContactLoad, DrumIntegral::kContactLoad);
+  add(quantities::kMotorPower, DrumIntegral::kMotorWork);
   for (std::size_t i = 2; i < states.size(); ++i) channels.push_back({states[i].quantity});  // after rubber and gas
   return channels;
 }

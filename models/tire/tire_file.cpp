@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
+#include <cmath>
 
 #include "models/tire/tire_model.h"
 #include "sim/core/error.h"
@@ -117,6 +118,39 @@ void read_validity(TableReader& file, TireFile& tire) {
   tire.validity = validity;
 }
 
+/// [iso_28580]; what is absent there is that of the class, where the file has one.
+void read_iso_28580(TableReader& file, TireFile& tire) {
+  const ConfigTable* table = file.table("iso_28580");
+  if (table == nullptr) return;
+  TableReader reader(*table, "[iso_28580]");
+  Iso28580Reference iso;
+  if (tire.service.has_value()) {
+    const IsoTestOfClass of_class = find_iso_test(*tire.service, tire.values.geometry.rim_diameter_m);
+    const double missing = std::nan("");
+    iso = {missing,
+           of_class.load_N,
+           of_class.pressure_Pa.value_or(missing),
+           of_class.warm_up_s,
+           of_class.ambient_coefficient_per_K,
+           of_class.speed_m_s,
+           of_class.soak_s};
+    if (!of_class.pressure_Pa.has_value() && !reader.has("pressure_kPa")) {
+      throw reader.problem("pressure_kPa",
+                           fmt::format("missing key: the pressure of the test of a tire of class {} is that of its "
+                                       "maximum load",
+                                       name_of(tire.service->tire_class)),
+                           "pressure_kPa here, or maximum_load_pressure_kPa in [service_description]");
+    }
+    Iso28580Reference::visit(iso, [&](const Field& field, double& member) {
+      member = std::isnan(member) ? reader.number(field) : reader.number_or_none(field).value_or(member);
+    });
+  } else {
+    read_fields(reader, iso);
+  }
+  reader.finish();
+  tire.iso_28580 = iso;
+}
+
 void read_sweep_loads(TableReader& file, TireFile& tire) {
   const ConfigTable* table = file.table("load_sweep");
   if (table == nullptr) return;
@@ -185,8 +219,8 @@ TireFile read_tire(const ConfigTable& config) {
     read_rig_thermal(*file.table("thermal"), tire);
   }
   tire.has_constant = read_group(file, "constant", tire.values.constant, &sd.constant);
-  Iso28580Reference iso_28580;
-  if (read_group(file, "iso_28580", iso_28580)) tire.iso_28580 = iso_28580;
+  if (const ConfigTable* service = file.table("service_description")) tire.service = read_service_description(*service);
+  read_iso_28580(file, tire);
   read_validity(file, tire);
   read_sweep_loads(file, tire);
   tire.correlation = read_correlation(file, tire);
@@ -258,6 +292,38 @@ bool TireFile::gives_uncertainty_of(bool heat_balance) const {
                         return entry.second.rest_conductance_sd_W_per_K.has_value() ||
                                entry.second.speed_conductance_sd_W_s_per_m_K.has_value();
                       }));
+}
+
+std::vector<std::string> TireFile::list_class_doubts() const {
+  if (!service.has_value()) return {};
+  std::vector<std::string> doubts;
+  const char* name = name_of(service->tire_class);
+  if (service->tire_class == TireClass::kC1) {
+    const bool is_commercial = designation.rfind("LT", 0) == 0 || (!designation.empty() && designation.back() == 'C');
+    if (is_commercial) {
+      doubts.push_back(
+          fmt::format("class C1: the designation {} is one of commercial vehicles, class C2 or C3", designation));
+    }
+    if (service->is_heavy()) {
+      doubts.push_back(fmt::format(
+          "class C1: a tire with load index {} is of class C3, unless it is of a passenger car", service->load_index));
+    }
+  }
+  if (!iso_28580.has_value()) return doubts;
+  constexpr double kSame = 0.01;  // Assumed: files round
+  const IsoTestOfClass of_class = find_iso_test(*service, values.geometry.rim_diameter_m);
+  const auto compare = [&](const char* key, double stated_SI, double asked_SI) {
+    if (std::abs(stated_SI / asked_SI - 1.0) <= kSame) return;
+    const Unit unit = unit_of_key(key);
+    doubts.push_back(fmt::format("[iso_28580] {} = {:.6g}, but the test of class {} asks for {:.6g} with load index {}",
+                                 key, unit.from_si(stated_SI), name, unit.from_si(asked_SI), service->load_index));
+  };
+  compare("load_N", iso_28580->load_N, of_class.load_N);
+  if (of_class.pressure_Pa.has_value()) compare("pressure_kPa", iso_28580->pressure_Pa, *of_class.pressure_Pa);
+  compare("speed_km_h", iso_28580->speed_m_s, of_class.speed_m_s);
+  compare("warm_up_min", iso_28580->warm_up_s, of_class.warm_up_s);
+  compare("ambient_coefficient_per_degC", iso_28580->ambient_coefficient_per_K, of_class.ambient_coefficient_per_K);
+  return doubts;
 }
 
 std::optional<std::string> TireFile::warn_of_conductances(const CoolingRig& rig) const {

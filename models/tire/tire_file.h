@@ -8,6 +8,7 @@
 #include "models/tire/conversion_laws.h"
 #include "models/tire/correlation.h"
 #include "models/tire/tire.h"
+#include "models/tire/tire_class.h"
 
 namespace rollrig::models {
 
@@ -62,13 +63,16 @@ struct CoolingRig {
   TireCooling cooling_sd{};  // standard uncertainties, 0 where the rig's file gives none
 };
 
-/// [iso_28580]: what the tire's label or a test says, for comparison and as default test conditions.
+/// [iso_28580]: what the tire's label or a test says, for comparison and as default test conditions. With
+/// [service_description], all but the RRc has a default by class (find_iso_test()).
 struct Iso28580Reference {
   double rrc = 0.0;  // N/N
   double load_N = 0.0;
   double pressure_Pa = 0.0;
   double warm_up_s = 0.0;                  // of the class
   double ambient_coefficient_per_K = 0.0;  // K_t of the class
+  double speed_m_s = 0.0;
+  double soak_s = 3.0 * 3600.0;  // of the class; no key of the file
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -78,6 +82,7 @@ struct Iso28580Reference {
     visit(Field{"warm_up_min", between(1.0, 600.0), "", 30.0}, p.warm_up_s);
     visit(Field{"ambient_coefficient_per_degC", between(0.0, 0.05), "", kAmbientCoefficient_per_K},
           p.ambient_coefficient_per_K);
+    visit(Field{"speed_km_h", between(5.0, 250.0), "", 80.0}, p.speed_m_s);
   }
 };
 
@@ -126,6 +131,7 @@ struct TireFile {
   bool has_thermal = false;
   bool has_constant = false;
   std::map<std::string, RigThermal> rig_thermal;
+  std::optional<ServiceDescription> service;
   std::optional<Iso28580Reference> iso_28580;
   std::optional<TireValidity> validity;
   std::vector<double> sweep_loads_N;  // [load_sweep] loads_N: the loads of its load sweep; may be empty
@@ -144,6 +150,10 @@ struct TireFile {
   /// Whether the file gives a standard uncertainty of any number of the heat balance ([thermal], of any rig), or else
   /// of the loss (all other tables).
   bool gives_uncertainty_of(bool heat_balance) const;
+  /// A sentence for each number of the file that is not what the class of [service_description] asks for: load,
+  /// pressure, speed, warm-up and K_t of [iso_28580]; class C1 above load index 121, or with a designation of
+  /// commercial vehicles ("C" at its end, "LT" before it). Empty without [service_description].
+  std::vector<std::string> list_class_doubts() const;
   /// A warning where this tire names the rigs on which its conductances hold, and this rig is none of them.
   std::optional<std::string> warn_of_conductances(const CoolingRig& rig) const;
 

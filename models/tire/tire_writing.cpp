@@ -51,6 +51,18 @@ class TomlText {
   std::string table_;
 };
 
+void write_service(const ServiceDescription& service, TomlText& out) {
+  out.header("[service_description]");
+  out.line("class", fmt::format("\"{}\"", name_of(service.tire_class)));
+  out.line("load_index", fmt::format("{}", service.load_index));
+  if (!service.speed_symbol.empty()) out.line("speed_symbol", "\"" + service.speed_symbol + "\"");
+  if (service.is_reinforced) out.line("reinforced", "true");
+  if (service.is_severe_snow) out.line("severe_snow", "true");
+  if (service.maximum_load_pressure_Pa.has_value()) {
+    out.number("maximum_load_pressure_kPa", *service.maximum_load_pressure_Pa);
+  }
+}
+
 }  // namespace
 
 std::string write_tire(const TireFile& tire, const std::map<std::string, std::string>& notes) {
@@ -89,6 +101,7 @@ std::string write_tire(const TireFile& tire, const std::map<std::string, std::st
   }
   if (!tire.values.own.values.empty()) out.group("[" + model + "]", tire.values.own, &sd.own);
   if (tire.has_constant) out.group("[constant]", tire.values.constant, &sd.constant);
+  if (tire.service.has_value()) write_service(*tire.service, out);
   if (tire.iso_28580.has_value()) out.group("[iso_28580]", *tire.iso_28580);
   if (tire.validity.has_value()) out.group("[validity]", *tire.validity);
   if (!tire.sweep_loads_N.empty()) {
