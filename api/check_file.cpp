@@ -47,6 +47,7 @@ FileCheck validate_tire(const models::TireFile& tire) {
   FileCheck check{fmt::format("tire '{}'", tire.name)};
   check.warnings = scenarios::list_negative_losses(tire);
   check.is_good = check.warnings.empty();
+  for (const std::string& doubt : tire.list_class_doubts()) check.warnings.push_back(doubt);
   try {
     if (const auto warning = scenarios::check_iso_rrc(tire)) check.warnings.push_back(*warning);
   } catch (const InputError&) {  // a tire for other tests

@@ -83,6 +83,7 @@ void add_new_tire(CLI::App& parent, Action& action) {
   NewTireOptions& tire = options->tire;
   command->add_option("--size", tire.size, "Size, such as 205/55R16; a load index may follow")->required();
   command->add_option("--load-index", tire.load_index, "Load index, such as 91");
+  command->add_option("--speed-symbol", tire.speed_symbol, "Speed symbol, such as V [that of the size]");
   auto* rrc = command->add_option("--rrc", tire.rrc_N_per_kN, "RRc of ISO 28580 in N/kN");
   auto* tir = command->add_option("--tir", tire.tir, "Tire property file (.tir) whose coefficients give the RRc");
   tir->excludes(rrc);

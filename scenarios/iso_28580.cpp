@@ -1,9 +1,12 @@
 /// ISO 28580: the whole rolling-resistance test of one tire, as in §3.2.3.
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "models/tire/conversion_laws.h"
+#include "models/tire/label_class.h"
 #include "scenarios/common/drum_bench.h"
+#include "scenarios/common/iso_methods.h"
 #include "scenarios/common/iso_uncertainty.h"
 #include "scenarios/common/readings.h"
 
@@ -13,6 +16,8 @@ struct Settings : CycleSettings {
   int measurement_cycles = 0;
   double measurement_s = 0.0;
   IsoAccuracies accuracies;
+  Choice method{kTorqueMethod, list_iso_methods()};
+  double spindle_misalignment_rad = 0.0;
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -23,13 +28,36 @@ struct Settings : CycleSettings {
     visit(Field{"measurement_min", between(1.0, 600.0), "Load of a measurement cycle; its skim is as the first", 10.0},
           p.measurement_s);
     IsoAccuracies::visit(p.accuracies, visit);
+    visit(Field{"method", any_number(),
+                "Method whose RRc is corrected and labeled; all are reported, deceleration only when it is this one, "
+                "since it adds coasts"},
+          p.method);
+    visit(Field{"spindle_misalignment_mrad", between(-20.0, 20.0),
+                "Angle by which the force cell of the force method is off the right angle to the load", 0.0},
+          p.spindle_misalignment_rad);
+  }
+
+  bool coasts() const { return method.value == kDecelerationMethod; }
+
+  /// Speed and soak by class too, where they are not given.
+  void complete(const RunSpec& spec) {
+    CycleSettings::complete(spec);
+    if (!spec.tire.iso_28580.has_value()) return;
+    if (spec.settings.find("speed_km_h") == nullptr) conditions.speed_m_s = spec.tire.iso_28580->speed_m_s;
+    if (spec.settings.find("soak_h") == nullptr) conditions.soak_s = spec.tire.iso_28580->soak_s;
   }
 };
 
 struct Results {
   Cycle cycle;  // the measurement: the last cycle, which is the warm-up's own end when no measurement cycle follows
+  std::string method;
+  std::vector<MethodResult> methods;
   double corrected_rrc = 0.0;
-  RrcUncertainty uncertainty;
+  std::optional<RrcUncertainty> uncertainty;  // of the methods that use the torque sensor
+  std::optional<std::string> label_class;
+  std::optional<double> label_probability;
+  std::optional<double> approval_stage;
+  std::string why_no_label;
   double pressure_set_Pa = 0.0;
   double pressure_verified_Pa = 0.0;
   std::vector<Cycle> cycles;
@@ -40,10 +68,10 @@ struct Results {
   void visit(ResultSheet& visit) const {
     cycle.visit(visit);
     visit(Result{"rrc_25degC_2m_N_per_kN", "", ".3f", "RRc corrected to 25 degC and the 2 m drum"}, corrected_rrc);
-    visit(Result{"rrc_uncertainty_N_per_kN", "", ".3f", "expanded (k = 2), from the torque sensor, offset canceled"},
-          uncertainty.offset_canceled);
-    visit(Result{"rrc_uncertainty_offset_kept_N_per_kN", "", ".3f", "the same from the offset alone, not canceled"},
-          uncertainty.offset_kept);
+    visit_uncertainty(visit);
+    visit(Result{"method", "Method", "", "the method of that RRc"}, method);
+    visit(ResultList{"methods", "Methods of the standard", "F_r by each method"}, methods);
+    visit_label(visit);
     visit(Result{"pressure_set_kPa", "", ".1f", "as set after the soak, gauge"}, pressure_set_Pa);
     visit(Result{"pressure_verified_kPa", "", ".1f", "at the end of the check, which the standard asks for, gauge"},
           pressure_verified_Pa);
@@ -60,24 +88,70 @@ struct Results {
     visit(JointLine{"Rolling resistance", "{rolling_resistance_N}"});
     visit(JointLine{"  by the force method", "{force_method_N}"});
     visit(JointLine{"RRc", "{rrc_N_per_kN}"});
-    visit(JointLine{"RRc at 25 degC, 2 m drum",
-                    "{rrc_25degC_2m_N_per_kN} +- {rrc_uncertainty_N_per_kN} (k = 2, torque sensor)"});
-    visit(JointLine{"  zero error of the torque",
-                    "+- {rrc_uncertainty_offset_kept_N_per_kN}, canceled by the skim test"});
+    if (uncertainty.has_value()) {
+      visit(JointLine{"RRc at 25 degC, 2 m drum",
+                      "{rrc_25degC_2m_N_per_kN} +- {rrc_uncertainty_N_per_kN} (k = 2, torque sensor)"});
+      visit(JointLine{"  zero error of the torque",
+                      "+- {rrc_uncertainty_offset_kept_N_per_kN}, canceled by the skim test"});
+    } else {
+      visit(JointLine{"RRc at 25 degC, 2 m drum", "{rrc_25degC_2m_N_per_kN} by the {method} method"});
+    }
     visit(Remark{"  tire file says"}, tire_file_says);
+    visit_label_lines(visit);
     visit(
         JointLine{"RRc of all cycles", "{rrc_cycles_mean_N_per_kN} +- {rrc_cycles_sd_N_per_kN} (standard deviation)"});
+  }
+
+ private:
+  void visit_uncertainty(ResultSheet& visit) const {
+    const auto read = [this](double RrcUncertainty::*part) {
+      return uncertainty.has_value() ? std::optional((*uncertainty).*part) : std::nullopt;
+    };
+    visit(Result{"rrc_uncertainty_N_per_kN", "", ".3f", "expanded (k = 2), from the torque sensor, offset canceled"}
+              .or_left_out(),
+          read(&RrcUncertainty::offset_canceled));
+    visit(Result{"rrc_uncertainty_offset_kept_N_per_kN", "", ".3f", "the same from the offset alone, not canceled"}
+              .or_left_out(),
+          read(&RrcUncertainty::offset_kept));
+  }
+
+  void visit_label(ResultSheet& visit) const {
+    visit(Result{"label_class", "", "", "class of the EU label, A to E, of a tire with [service_description]"}
+              .or_left_out(),
+          label_class);
+    visit(Result{"label_probability", "", ".3f",
+                 "probability that the RRc is in this class, by the uncertainty of the torque sensor"}
+              .or_left_out(),
+          label_probability);
+    visit(Result{"approval_stage", "", ".0f",
+                 "highest stage of UN R117 whose limit the RRc meets, of stages 1 and 2; 0: none"}
+              .or_left_out(),
+          approval_stage);
+  }
+
+  void visit_label_lines(ResultSheet& visit) const {
+    if (label_probability.has_value()) {
+      visit(JointLine{"EU label class", "{label_class} (probability {label_probability})"});
+    } else if (label_class.has_value()) {
+      visit(JointLine{"EU label class", "{label_class}"});
+    }
+    visit(JointLine{"Stage of UN R117 that is met", "{approval_stage}"});
+    visit(Remark{"EU label class"}, why_no_label);
   }
 };
 
 DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   DrumProgram program(settings.conditions, spec);
   program.begin_test("iso-28580");
-  program.roll("warm-up", *settings.warm_up_s);
-  program.skim("skim", settings.skim_s);
-  for (int i = 1; i <= settings.measurement_cycles; ++i) {
-    program.roll(fmt::format("measurement {}", i), settings.measurement_s);
-    program.skim(fmt::format("skim {}", i), settings.skim_s);
+  const double speed_m_s = settings.conditions.speed_m_s;
+  const double band_m_s = find_coast_band_m_s(spec, settings.conditions);
+  for (int i = 0; i <= settings.measurement_cycles; ++i) {
+    const bool coasts = settings.coasts() && i == settings.measurement_cycles;
+    program.roll(i == 0 ? "warm-up" : fmt::format("measurement {}", i),
+                 i == 0 ? *settings.warm_up_s : settings.measurement_s);
+    if (coasts) add_coast(program, "loaded", speed_m_s, band_m_s);
+    program.skim(i == 0 ? "skim" : fmt::format("skim {}", i), settings.skim_s);
+    if (coasts) add_coast(program, "skim", speed_m_s, band_m_s);
   }
   return program;
 }
@@ -108,13 +182,76 @@ double simulate_resistance_N(Settings settings, RunSpec spec, double speed_m_s, 
   return find_cycles(outcome.recording, spec, settings.conditions).back().rolling_resistance_N;
 }
 
+/// F_r by every method that the run allows, the torque method first.
+std::vector<MethodResult> evaluate_methods(const Settings& settings, const RunSpec& spec,
+                                           const sim::Recording<double>& recording, const Cycle& cycle) {
+  std::vector<MethodResult> methods;
+  const auto add = [&](const char* name, double loss_N) {
+    const double rrc = loss_N / cycle.loaded.load_N;
+    methods.push_back(
+        {name, loss_N, rrc, correct_rrc(rrc, cycle.loaded.ambient_K, spec), loss_N / cycle.rolling_resistance_N - 1.0});
+  };
+  add(kTorqueMethod, cycle.rolling_resistance_N);
+  add(kForceMethod, cycle.force_method_N);
+  add(kPowerMethod, calc_power_method_N(recording, spec, cycle));
+  if (settings.coasts()) {
+    const double band_m_s = find_coast_band_m_s(spec, settings.conditions);
+    add(kDecelerationMethod, calc_deceleration_method_N(recording, spec, cycle, band_m_s));
+  }
+  return methods;
+}
+
+/// Where a test differs from the one that the label is defined by; empty where it does not.
+std::string find_other_condition(const Settings& settings, const models::IsoTestOfClass& asked) {
+  constexpr double kSame = 0.01;  // Assumed: files round
+  const auto differs = [](double is, double wanted) { return std::abs(is / wanted - 1.0) > kSame; };
+  const DrumConditions& conditions = settings.conditions;
+  if (differs(*conditions.load_N, asked.load_N)) return "load";
+  if (asked.pressure_Pa.has_value() && differs(*conditions.pressure_Pa, *asked.pressure_Pa)) return "pressure";
+  if (differs(conditions.speed_m_s, asked.speed_m_s)) return "speed";
+  return *settings.warm_up_s < asked.warm_up_s * (1.0 - kSame) ? "warm-up" : "";
+}
+
+void add_label(const Settings& settings, const RunSpec& spec, Results& results) {
+  if (!spec.tire.service.has_value()) return;
+  const models::ServiceDescription& service = *spec.tire.service;
+  const std::string other =
+      find_other_condition(settings, models::find_iso_test(service, spec.tire.values.geometry.rim_diameter_m));
+  if (!other.empty()) {
+    results.why_no_label = fmt::format("none: the {} is not that of class {}", other, name_of(service.tire_class));
+    return;
+  }
+  const double rrc = results.corrected_rrc;
+  const std::size_t place = models::find_label_class(service.tire_class, rrc);
+  results.label_class = models::kLabelClasses[place];
+  if (results.uncertainty.has_value()) {
+    constexpr double kCoverage = 2.0;
+    const double sd = results.uncertainty->offset_canceled / kCoverage;
+    results.label_probability = models::calc_label_probabilities(service.tire_class, rrc, sd)[place];
+  }
+  int stage = 0;
+  for (const models::RrcLimit& limit : models::list_rrc_limits(service.tire_class, service.is_severe_snow)) {
+    if (models::round_declared_rrc(rrc) <= limit.rrc + 1e-9) stage = std::max(stage, limit.stage);
+  }
+  results.approval_stage = stage;
+}
+
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
-  const std::vector<Cycle> cycles = find_cycles(outcome.recording, spec, settings.conditions);
+  std::vector<Cycle> cycles = find_cycles(outcome.recording, spec, settings.conditions);
+  cycles.resize(std::min(cycles.size(), static_cast<std::size_t>(settings.measurement_cycles) + 1));
+  for (Cycle& cycle : cycles) {
+    cycle.force_method_N = add_misalignment_N(cycle.force_method_N, cycle, spec, settings.spindle_misalignment_rad);
+  }
   Results results;
   results.cycle = cycles.back();
   const double ambient_K = results.cycle.loaded.ambient_K;
-  results.corrected_rrc = correct_rrc(results.cycle.rrc, ambient_K, spec);
-  results.uncertainty = calc_rrc_uncertainty(results.cycle, spec);
+  results.method = settings.method.value;
+  results.methods = evaluate_methods(settings, spec, outcome.recording, results.cycle);
+  for (const MethodResult& method : results.methods) {
+    if (method.name == results.method) results.corrected_rrc = method.corrected_rrc;
+  }
+  if (results.method == kTorqueMethod) results.uncertainty = calc_rrc_uncertainty(results.cycle, spec);
+  add_label(settings, spec, results);
   results.pressure_set_Pa = *settings.conditions.pressure_Pa;
   results.pressure_verified_Pa = find_verified_pressure_Pa(outcome.recording);
   if (cycles.size() > 1) {
@@ -132,6 +269,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
         fmt::format("RRc is {:.1f} % away from that in steady state: warm_up_min is too short for this tire",
                     1e2 * std::abs(*results.cycle.unsettled)));
   }
+  for (const std::string& doubt : spec.tire.list_class_doubts()) outcome.warnings.push_back(doubt);
   if (!models::is_ambient_correction_valid(ambient_K)) {
     outcome.warnings.push_back("the correction to 25 degC holds from 20 to 30 degC only");
   }
@@ -150,8 +288,10 @@ Scenario make() {
        "3 h soak at test temperature; pressure set and verified after 10 min; run-up at skim load; 30 min under "
        "load at 80 km/h, of which the last minute is the measurement; 3 min skim at 200 N, of which the last "
        "minute gives the parasitic loss. With measurement_cycles, further cycles of 10 min load and 3 min skim "
-       "follow, and the last of them is the measurement. Ranges are found from the load signal.",
-       "ISO 28580:2009 as in Kolekar and Narasimhan (2024) §3.2.1, §3.2.3, B.2"},
+       "follow, and the last of them is the measurement. Ranges are found from the load signal. With "
+       "[service_description] of the tire, load, pressure, speed, soak, warm-up and temperature coefficient are those "
+       "of its class. With method=deceleration, a coast under load and one at skim load are added.",
+       "ISO 28580:2009 as in Kolekar and Narasimhan (2024) §3.2.1, §3.2.3, B.2; classes and methods: UN R117, Annex 6"},
       &plan, &evaluate);
   scenario.has_uncertainty = true;
   return scenario;

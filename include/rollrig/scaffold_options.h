@@ -33,6 +33,7 @@ struct NewTireOptions {
   std::string tir;                        // path of a tire property file (.tir) whose coefficients give the RRc
   std::optional<double> rrc_sd_N_per_kN;  // its standard uncertainty; absent: 0.15
   std::optional<double> pressure_kPa;     // of the test, gauge; absent: by class
+  std::string speed_symbol;               // "V"; empty: that of the size, where it has one
 };
 
 /// A rig like one of the assets. What is absent is as there.

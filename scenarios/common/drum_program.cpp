@@ -9,6 +9,7 @@ namespace rollrig::scenarios {
 namespace {
 
 constexpr double kRowEveryAtRest_s = 60.0;  // Assumed: a soak changes within hours
+constexpr double kMaxStepOfCoast_s = 1.0;
 
 }  // namespace
 
@@ -87,7 +88,15 @@ void DrumProgram::roll(const std::string& name, double duration_s, std::optional
 void DrumProgram::change_speed(const std::string& name, double duration_s, double speed_m_s,
                                std::optional<double> load_N) {
   load_N_ = load_N.value_or(load_N_);
-  append(name, duration_s, speed_m_s);
+  append(name, duration_s, speed_m_s).commands = {{rigs::kDrive, 1.0}};
+}
+
+void DrumProgram::coast(const std::string& name, double end_m_s, double longest_s) {
+  sim::Phase& phase = append(name, longest_s, speed_m_s_);
+  phase.commands = {{rigs::kDrive, 0.0}};
+  phase.max_step_s = kMaxStepOfCoast_s;
+  phase.until = sim::StopCondition{rigs::kWatchSpeed, end_m_s, sim::StopCondition::Direction::kFalling};
+  speed_m_s_ = end_m_s;
 }
 
 void DrumProgram::follow(const std::string& name, const measurements::MeasuredRun& run, const rigs::MachineKind& kind) {

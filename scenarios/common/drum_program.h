@@ -36,6 +36,9 @@ class DrumProgram {
   /// A change to another speed at constant acceleration, under the load of the phase before it unless one is given.
   void change_speed(const std::string& name, double duration_s, double speed_m_s,
                     std::optional<double> load_N = std::nullopt);
+  /// Coasts under the present load: the motor is off until the speed has fallen to `end_m_s`, where the next phase goes
+  /// on. A coast that has not fallen so far after `longest_s` ends there, and the next phase fails.
+  void coast(const std::string& name, double end_m_s, double longest_s);
   /// Follows given inputs, `run`'s first row being now: load held from row to row, all else linear (formats.md).
   void follow(const std::string& name, const measurements::MeasuredRun& run, const rigs::MachineKind& kind);
   /// Ends the phase appended last when the tire reaches a temperature from below.

@@ -91,6 +91,9 @@ class ResultSheet {
   void operator()(const Result& result, int value) { add(result, value, std::to_string(value)); }
   void operator()(const Result& result, bool value) { add(result, value, value ? "yes" : "no"); }
   void operator()(const Result& result, const std::string& value) { add(result, value, value); }
+  void operator()(const Result& result, const std::optional<std::string>& value) {
+    value.has_value() ? (*this)(result, *value) : add(result, Json(), "");
+  }
   void operator()(const Remark& remark, const std::string& text);
   void operator()(const JointLine& line);
   /// `total`, for a person alone, is the last row of the tables; what it lacks is NaN.

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
 #include "estimation/loss_conversion.h"
@@ -201,18 +202,31 @@ void set_law(const NewTireOptions& options, const ClassValues& values, ClassTire
   }
 }
 
-double find_iso_warm_up_s(const std::string& tire_class, bool is_heavy, double rim_diameter_m) {
-  constexpr double kLargeRim_m = 0.571;  // 22.5 inches
-  constexpr double kMinute_s = 60.0;
-  if (tire_class == "C1") return 30.0 * kMinute_s;
-  if (!is_heavy) return 50.0 * kMinute_s;
-  return (rim_diameter_m > kLargeRim_m ? 180.0 : 150.0) * kMinute_s;
-}
-
-/// K_t of ISO 28580 by class; heavy is a load index above 121.
-double find_K_t_per_K(const std::string& tire_class, bool is_heavy) {
-  if (tire_class == "C1") return models::kAmbientCoefficient_per_K;
-  return is_heavy ? 0.006 : 0.010;
+/// [service_description], where class, load index and speed symbol are known as far as the class needs them.
+void set_service(const NewTireOptions& options, const TireSize& size, const std::string& load_index, ClassTire& made) {
+  models::ServiceDescription service;
+  service.tire_class = *models::find_class_named(made.tire_class);
+  service.load_index = parse_load_index(load_index);
+  std::string symbol = options.speed_symbol.empty() ? size.speed_symbol : options.speed_symbol;
+  boost::algorithm::to_upper(symbol);
+  if (!symbol.empty() && !models::find_symbol_speed_km_h(symbol).has_value()) {
+    throw InputError({fmt::format("'{}' is not a speed symbol", symbol), "command line", 0, "--speed-symbol", symbol,
+                      fmt::format("one of {}", fmt::join(models::list_speed_symbols(), " ")), ""});
+  }
+  service.speed_symbol = symbol;
+  service.is_reinforced = options.is_reinforced && service.tire_class == models::TireClass::kC1;
+  if (options.pressure_kPa.has_value()) service.maximum_load_pressure_Pa = 1e3 * *options.pressure_kPa;
+  if (service.tire_class == models::TireClass::kC1) service.maximum_load_pressure_Pa.reset();
+  made.service = service;
+  made.tire.service.reset();  // that of the reference tire
+  if (symbol.empty() && service.tire_class == models::TireClass::kC3) return;
+  if (const auto mistake = models::find_class_mistake(service)) {
+    throw InputError({mistake->what, "command line", 0, "--class", made.tire_class, mistake->allowed, ""});
+  }
+  made.tire.service = service;
+  made.notes["service_description.load_index"] = "Given";
+  made.notes["service_description.reinforced"] = "Given";
+  made.notes["service_description.maximum_load_pressure_kPa"] = "Given, as the pressure of the test";
 }
 
 std::string rrc_note(const NewTireOptions& options) {
@@ -233,12 +247,14 @@ void set_tests(const NewTireOptions& options, const ClassValues& values, double 
   numbers.set("iso_28580.rrc_N_per_kN", iso.rrc, options.rrc_N_per_kN * 1e-3, rrc_note(options));
   numbers.set("iso_28580.load_N", iso.load_N, std::round(values.iso_load_share * capacity_N), values.iso_load_note);
   numbers.set("iso_28580.pressure_kPa", iso.pressure_Pa, pressure_kPa * 1e3, pressure_note);
-  const bool is_heavy = capacity_N > find_load_capacity_N("121");
-  numbers.set("iso_28580.warm_up_min", iso.warm_up_s,
-              find_iso_warm_up_s(made.tire_class, is_heavy, tire.values.geometry.rim_diameter_m),
+  const models::IsoTestOfClass test = models::find_iso_test(made.service, tire.values.geometry.rim_diameter_m);
+  iso.soak_s = test.soak_s;
+  numbers.set("iso_28580.warm_up_min", iso.warm_up_s, test.warm_up_s,
               "Assumed: ISO 28580, table of warm-up times, as other publications cite it");
-  numbers.set("iso_28580.ambient_coefficient_per_degC", iso.ambient_coefficient_per_K,
-              find_K_t_per_K(made.tire_class, is_heavy), "UN R117, Annex 6, 6.2");
+  numbers.set("iso_28580.ambient_coefficient_per_degC", iso.ambient_coefficient_per_K, test.ambient_coefficient_per_K,
+              "UN R117, Annex 6, 6.2");
+  numbers.set("iso_28580.speed_km_h", iso.speed_m_s, test.speed_m_s,
+              "Assumed: UN R117, Annex 6, test speeds, as other publications cite them");
   auto& reference = tire.values.rolling_resistance;
   numbers.set("rolling_resistance.reference_load_N", reference.reference_load_N, iso.load_N, "as [iso_28580]");
   numbers.set("rolling_resistance.reference_pressure_kPa", reference.reference_pressure_Pa, iso.pressure_Pa,
@@ -350,6 +366,7 @@ ClassTire make_class_tire(const NewTireOptions& given) {
   made.tire.designation = size.designation;
   made.tire.basis = models::TireBasis::kClass;
   NumberSetter numbers(made, base);
+  set_service(options, size, load_index, made);
   set_geometry(size, values, made, numbers);
   set_tests(options, values, pressure_kPa, made, numbers);
   set_stiffness(base, made.tire.iso_28580->load_N, made, numbers);

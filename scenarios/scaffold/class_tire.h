@@ -15,7 +15,8 @@ struct ClassTire {
   std::map<std::string, std::string> notes;  // source of each number, for write_tire
   std::string tire_class;                    // "C1"
   std::string class_reason;
-  std::string base;  // name of the asset that gives the values of the class
+  std::string base;                    // name of the asset that gives the values of the class
+  models::ServiceDescription service;  // in the tire too, where the file can say it
   double load_capacity_N = 0.0;
   std::vector<std::string> warnings = {};  // of the tire property file
 };

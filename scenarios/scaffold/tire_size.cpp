@@ -1,11 +1,11 @@
 #include "scenarios/scaffold/tire_size.h"
 
-#include <array>
-#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
+#include <boost/algorithm/string/case_conv.hpp>
 
+#include "models/tire/tire_class.h"
 #include "sim/core/error.h"
 #include "sim/core/text_cursor.h"
 #include "sim/core/units.h"
@@ -13,19 +13,7 @@
 namespace rollrig::scenarios {
 namespace {
 
-constexpr int kLowestIndex = 60;
-constexpr int kHighestIndex = 179;
-constexpr int kDecade = 80;  // indices over which the load rises tenfold
 constexpr double kInch_m = 0.0254;
-
-/// Loads of the indices 60 to 139 in kg. Those of 140 to 219 are ten times as large, and these are rounded down.
-constexpr std::array<double, kDecade> kLoads_kg{
-    250.0,  257.5,  265.0,  272.5,  280.0,  290.0,  300.0,  307.5,  315.0,  325.0,  335.0,  345.0,  355.0,  365.0,
-    375.0,  387.5,  400.0,  412.5,  425.0,  437.5,  450.0,  462.5,  475.0,  487.5,  500.0,  515.0,  530.0,  545.0,
-    560.0,  580.0,  600.0,  615.0,  630.0,  650.0,  670.0,  690.0,  710.0,  730.0,  750.0,  775.0,  800.0,  825.0,
-    850.0,  875.0,  900.0,  925.0,  950.0,  975.0,  1000.0, 1030.0, 1060.0, 1090.0, 1120.0, 1150.0, 1180.0, 1215.0,
-    1250.0, 1285.0, 1320.0, 1360.0, 1400.0, 1450.0, 1500.0, 1550.0, 1600.0, 1650.0, 1700.0, 1750.0, 1800.0, 1850.0,
-    1900.0, 1950.0, 2000.0, 2060.0, 2120.0, 2180.0, 2240.0, 2300.0, 2360.0, 2430.0};
 
 InputError bad_size(const std::string& text, const std::string& what) {
   return InputError(
@@ -35,7 +23,7 @@ InputError bad_size(const std::string& text, const std::string& what) {
 
 /// The parts of a size as they are written.
 struct WrittenSize {
-  std::string width, aspect, rim, load_index;
+  std::string width, aspect, rim, load_index, speed_symbol;
   bool is_light_truck = false;
 };
 
@@ -88,7 +76,7 @@ std::optional<WrittenSize> split_size(const std::string& text) {
   if (!is_apart || !load_index.has_value()) return std::nullopt;
   size.load_index = *load_index;
   cursor.skip_blanks();
-  cursor.take_letters(1, 1);  // of the speed
+  size.speed_symbol = boost::algorithm::to_upper_copy(cursor.take_letters(1, 1).value_or(""));
   cursor.skip_blanks();
   if (!cursor.at_end()) return std::nullopt;
   return size;
@@ -113,6 +101,7 @@ TireSize parse_tire_size(const std::string& text) {
   size.rim_diameter_m = rim_in * kInch_m;
   size.outer_diameter_m = size.rim_diameter_m + 2.0 * aspect_percent * 0.01 * size.section_width_m;
   size.load_index = written->load_index;
+  size.speed_symbol = written->speed_symbol;
   return size;
 }
 
@@ -124,23 +113,19 @@ int parse_load_index(const std::string& load_index) {
   cursor.take_letters(1, 1);  // of the speed
   cursor.skip_blanks();
   const int index = written.has_value() && cursor.at_end() ? std::stoi(*written) : 0;  // the first of two
-  if (index >= kLowestIndex && index <= kHighestIndex) return index;
-  throw InputError(
-      {fmt::format("'{}' is no load index", load_index), "command line", 0, "--load-index", load_index,
-       fmt::format("a number from {} to {}, as on the sidewall behind the size", kLowestIndex, kHighestIndex), ""});
+  if (models::find_load_of_index_kg(index).has_value()) return index;
+  throw InputError({fmt::format("'{}' is no load index", load_index), "command line", 0, "--load-index", load_index,
+                    fmt::format("a number from {} to {}, as on the sidewall behind the size", models::kLowestLoadIndex,
+                                models::kHighestLoadIndex),
+                    ""});
 }
 
 double find_load_capacity_N(const std::string& load_index) {
-  const int index = parse_load_index(load_index);
-  const int place = index - kLowestIndex;
-  const double load_kg = place < kDecade ? std::floor(kLoads_kg[static_cast<std::size_t>(place)])
-                                         : 10.0 * kLoads_kg[static_cast<std::size_t>(place - kDecade)];
-  return load_kg * kStandardGravity_m_s2;
+  return models::find_load_of_index_kg(parse_load_index(load_index)).value_or(0.0) * kStandardGravity_m_s2;
 }
 
 std::string find_tire_class(const TireSize& size, int load_index) {
-  constexpr int kLightest = 122;  // UN R117: of class C3
-  if (load_index >= kLightest) return "C3";
+  if (load_index > models::kHighestLightIndex) return "C3";
   return size.is_commercial ? "C2" : "C1";
 }
 

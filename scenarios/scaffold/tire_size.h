@@ -14,6 +14,7 @@ struct TireSize {
   double rim_diameter_m = 0.0;
   bool is_commercial = false;  // marked C or LT
   std::string load_index;      // where one follows the size; else empty
+  std::string speed_symbol;    // likewise, in capitals
 };
 
 /// Equation  D = d + 2 h W
