@@ -108,6 +108,7 @@ void add_list_command(CLI::App& app, Action& action);
 std::vector<std::string> list_kinds();
 void add_align_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
+void add_label_command(CLI::App& app, Action& action);
 void add_describe_command(CLI::App& app, Action& action);
 void add_fit_command(CLI::App& app, Action& action);
 /// Options that describe a run, of run and sweep.

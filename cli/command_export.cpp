@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "rollrig/export.h"
+#include "rollrig/vecto.h"
 #include "sim/core/columns.h"
 
 namespace rollrig::cli {
@@ -19,9 +20,31 @@ struct ExportOptions {
   std::string mat;
   std::string hdf5;
   CoefficientOutputs coefficients;
+  std::string vecto;
+  VectoTireInput tire;
   BadRows bad_rows = BadRows::kRefuse;
   bool quiet = false;
 };
+
+/// The source is a tire, for VECTO.
+int export_tire(const ExportOptions& options) {
+  if (!options.mat.empty() || !options.hdf5.empty() || !options.coefficients.are_empty()) {
+    throw usage_error("a tire for VECTO is written alone", "--vecto", options.vecto,
+                      "--vecto without --mat, --hdf5 and others, whose source is a result, a set or a fit");
+  }
+  const OutputFiles files({{"--vecto", options.vecto}});
+  VectoTireInput input = options.tire;
+  input.tire = options.source;
+  const VectoTireFile made = make_vecto_tire(input);
+  files.require_no_input();
+  std::vector<StagedOutput> staged;
+  staged.emplace_back(options.vecto, made.xml);
+  commit_all(staged);
+  if (options.quiet || options.vecto == "-") return kDone;
+  std::cout << format_warnings(made.warnings);
+  std::cout << fmt::format("RRCDeclared {:.4f}, FzISO {} N, written to {}\n", made.rrc, made.load_N, options.vecto);
+  return kDone;
+}
 
 /// Paths and contents of the files, all made before one is written.
 std::vector<std::pair<std::string, std::string>> make_exports(const ExportOptions& options, std::string& warnings) {
@@ -35,10 +58,11 @@ std::vector<std::pair<std::string, std::string>> make_exports(const ExportOption
 }
 
 int export_command(const ExportOptions& options) {
+  if (!options.vecto.empty()) return export_tire(options);
   if (options.mat.empty() && options.hdf5.empty() && options.coefficients.are_empty()) {
     throw usage_error("no file to write is given", "", "",
                       "--mat FILE, --hdf5 FILE, or both; of a fit of J2452 --tydex, --tir, --simscape, --fastsim, "
-                      "--co2mpas");
+                      "--co2mpas; of a tire --vecto");
   }
   std::vector<OutputFile> outputs = options.coefficients.list_files();
   outputs.insert(outputs.begin(), {{"--mat", options.mat}, {"--hdf5", options.hdf5}});
@@ -61,16 +85,28 @@ int export_command(const ExportOptions& options) {
 void add_export_command(CLI::App& app, Action& action) {
   const auto [command, options] = add_command<ExportOptions>(
       app, action, "export",
-      "Write a result, a measurement set or a recording for MATLAB (.mat) or as HDF5, or a fit's coefficients",
+      "Write a result, a measurement set or a recording for MATLAB (.mat) or as HDF5, a fit's coefficients, or a tire "
+      "for VECTO",
       &export_command);
   command
-      ->add_option(
-          "source", options->source,
-          "Folder that run --out or --write-set wrote, a measurement set, a recording.csv, or fit.json of fit j2452")
+      ->add_option("source", options->source,
+                   "Folder that run --out or --write-set wrote, a measurement set, a recording.csv, or fit.json of fit "
+                   "j2452; of --vecto a tire: name under assets/tires, or a path")
       ->required();
   add_output_option(*command, "--mat", options->mat, "File for MATLAB, version 5; - for standard output");
   add_output_option(*command, "--hdf5", options->hdf5, "File in HDF5; - for standard output");
   options->coefficients.add_to(*command);
+  add_output_option(*command, "--vecto", options->vecto, "File for VECTO, the tire as XML; - for standard output");
+  VectoTireInput& tire = options->tire;
+  const auto add_vecto = [command = command](const char* option, auto& member, const char* doc) {
+    command->add_option(option, member, doc)->needs("--vecto");
+  };
+  add_vecto("--rrc", tire.rrc_N_per_kN, "RRc to declare in N/kN [of the simulated test of ISO 28580]");
+  add_vecto("--manufacturer", tire.manufacturer, "Manufacturer of the tire [simulated]");
+  add_vecto("--model", tire.model, "Model of the tire [its name]");
+  add_vecto("--certification-number", tire.certification_number, "Certification number [simulated, not certified]");
+  add_vecto("--date", tire.date, "Date and time in UTC [2017-01-01T00:00:00Z]");
+  add_vecto("--dimension", tire.dimension, "Size as VECTO writes it [designation of the tire]");
   add_skip_bad_rows(*command, options->bad_rows);
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }

@@ -21,6 +21,7 @@ std::vector<std::string> words_after(const std::string& what) {
   if (what == "--vehicle") return list_assets("vehicles");
   if (what == "--sensors") return list_assets("sensors");
   if (what == "--fidelity") return {"multibody", "quasi_static"};
+  if (what == "--class") return {"C1", "C2", "C3"};
   if (what == "--baseline") return {"combined", "constant_rrc"};
   if (what == "run" || what == "sweep") return names_of(list_scenarios());
   if (what == "--without" || what == "--only") return comparable_names();

@@ -67,7 +67,12 @@ void add_examples(const CLI::App& app) {
       {"align",
        "  rollrig align tires.csv --reference 1.003 -0.05 --out aligned\n"
        "  rollrig align --apply aligned/alignment.json --rrc 8.1\n"},
-      {"export", "  rollrig export warm --mat warm.mat\n"}};
+      {"label",
+       "  rollrig label --rrc 8.4 --class C1\n"
+       "  rollrig label --tire c3_315_80r22_5\n"},
+      {"export",
+       "  rollrig export warm --mat warm.mat\n"
+       "  rollrig export c3_315_80r22_5 --vecto tire.xml\n"}};
   for (const auto& [name, examples] : kExamples) app.get_subcommand(name)->footer("\nExamples:\n" + examples);
 }
 
@@ -130,6 +135,7 @@ int make_and_run(int argc, char** argv) {
   add_moved_command(app, action);
   add_convert_command(app, action);
   add_align_command(app, action);
+  add_label_command(app, action);
   add_completion_command(app, action);
   add_man_command(app, action);
   app.footer(kFooter);  // subcommands made after it would repeat it

@@ -9,6 +9,7 @@
 #include "export.h"
 #include "fit.h"
 #include "item_campaign.h"
+#include "label.h"
 #include "loop.h"
 #include "measurement_set.h"
 #include "plan.h"
@@ -20,4 +21,5 @@
 #include "scaffold.h"
 #include "sweep.h"
 #include "uncertainty_options.h"
+#include "vecto.h"
 #include "version.h"

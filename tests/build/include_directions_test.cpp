@@ -80,6 +80,7 @@ const std::map<std::string, std::set<std::string>> kPackages{
     {"boost/numeric/odeint", {"validation/generator/recorder.cpp"}},
     {"mpi.h", {"campaigns/mpi/hand_out.cpp", "campaigns/mpi/ranks.cpp"}},
     {"hdf5.h", {"tables/hdf5_handle.h"}},
+    {"libxml/", {"exports/vecto_tire.cpp"}},
     {"zlib.h", {"tables/mdf4_blocks.cpp"}},
     {"matio.h", {"exports/mat_file.cpp", "tables/mat_table.cpp"}},
 };

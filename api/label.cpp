@@ -1,0 +1,190 @@
+#include "rollrig/label.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <cmath>
+
+#include "models/tire/label_class.h"
+#include "models/tire/tire_file.h"
+#include "scenarios/scaffold/iso_test.h"
+#include "scenarios/scaffold/tire_size.h"
+#include "sim/core/assets.h"
+#include "sim/core/columns.h"
+#include "sim/core/error.h"
+#include "sim/core/json.h"
+
+namespace rollrig {
+namespace {
+
+constexpr double kLabelPerKilo = 1e-3;  // N/N in a N/kN
+
+/// Refuses a coefficient that no tire has, and says which unit it may be in.
+void require_tire_rrc(double rrc_N_per_kN) {
+  const double rrc = rrc_N_per_kN * kLabelPerKilo;
+  if (rrc >= models::kLowestTireRrc && rrc <= models::kHighestTireRrc) return;
+  std::string hint;
+  for (const auto& [factor, unit] : {std::pair{1e3, "N/N"}, std::pair{10.0, "percent"}, std::pair{0.1, "0.1 N/kN"}}) {
+    const double in_unit = rrc * factor;
+    if (hint.empty() && in_unit >= models::kLowestTireRrc && in_unit <= models::kHighestTireRrc) {
+      hint = fmt::format("; {:g} in {} is {:g} N/kN", rrc_N_per_kN, unit, in_unit / kLabelPerKilo);
+    }
+  }
+  throw InputError({fmt::format("no tire has an RRc of {:g} N/kN", rrc_N_per_kN), "command line", 0, "--rrc",
+                    fmt::format("{:g}", rrc_N_per_kN),
+                    fmt::format("{:g} to {:g} N/kN, which is kg/t{}", models::kLowestTireRrc / kLabelPerKilo,
+                                models::kHighestTireRrc / kLabelPerKilo, hint),
+                    ""});
+}
+
+models::TireClass read_label_class(const std::string& name) {
+  if (const auto found = models::find_class_named(boost::algorithm::to_upper_copy(name))) return *found;
+  InputProblem problem = unknown_name("class", name, models::list_tire_classes());
+  problem.file = "command line";
+  problem.key = "--class";
+  throw InputError(problem);
+}
+
+std::string read_label_symbol(const std::string& text) {
+  const std::string symbol = boost::algorithm::to_upper_copy(text);
+  if (symbol.empty() || models::find_symbol_speed_km_h(symbol).has_value()) return symbol;
+  throw InputError({fmt::format("'{}' is not a speed symbol", text), "command line", 0, "--speed-symbol", text,
+                    fmt::format("one of {}", fmt::join(models::list_speed_symbols(), " ")), ""});
+}
+
+/// Class and marks: what is given, else those of the tire.
+models::ServiceDescription find_label_service(const LabelInput& input, const std::optional<models::TireFile>& tire) {
+  models::ServiceDescription service;
+  if (tire.has_value() && tire->service.has_value()) service = *tire->service;
+  const bool is_known = service.load_index > 0;
+  if (!input.load_index.empty()) service.load_index = scenarios::parse_load_index(input.load_index);
+  if (!input.speed_symbol.empty()) service.speed_symbol = read_label_symbol(input.speed_symbol);
+  service.is_severe_snow = service.is_severe_snow || input.is_severe_snow;
+  if (!input.tire_class.empty()) {
+    service.tire_class = read_label_class(input.tire_class);
+  } else if (!is_known) {
+    if (service.load_index <= models::kHighestLightIndex) {
+      const std::string who = tire.has_value() ? fmt::format("tire '{}' has no [service_description]", tire->name)
+                                               : "an RRc alone does not tell the class of the tire";
+      throw InputError({who + ", which the bounds of the label depend on", "command line", 0, "--class", "",
+                        "--class C1 (passenger cars), C2 (vans) or C3 (trucks)", ""});
+    }
+    service.tire_class = models::TireClass::kC3;
+  }
+  if (service.tire_class != models::TireClass::kC1) service.is_reinforced = false;
+  if (service.load_index == 0) return service;
+  const bool lacks_symbol = service.speed_symbol.empty() && service.tire_class == models::TireClass::kC3;
+  if (lacks_symbol) return service;
+  if (const auto mistake = models::find_class_mistake(service)) {
+    throw InputError({mistake->what, "command line", 0, "--class", name_of(service.tire_class), mistake->allowed, ""});
+  }
+  return service;
+}
+
+double find_label_rrc(const LabelInput& input, const std::optional<models::TireFile>& tire) {
+  if (input.rrc_N_per_kN.has_value()) {
+    require_tire_rrc(*input.rrc_N_per_kN);
+    return *input.rrc_N_per_kN * kLabelPerKilo;
+  }
+  if (tire.has_value()) return scenarios::simulate_iso_rrc(*tire);
+  throw InputError({"neither an RRc nor a tire is given", "command line", 0, "--rrc", "",
+                    "--rrc NUMBER in N/kN, or --tire NAME", ""});
+}
+
+double find_label_rrc_sd(const LabelInput& input, models::TireClass tire_class) {
+  constexpr double kHighest_N_per_kN = 5.0;
+  if (!input.rrc_sd_N_per_kN.has_value()) return models::get_highest_laboratory_sd(tire_class);
+  const double sd_N_per_kN = *input.rrc_sd_N_per_kN;
+  if (sd_N_per_kN >= 0.0 && sd_N_per_kN <= kHighest_N_per_kN) return sd_N_per_kN * kLabelPerKilo;
+  throw InputError({"--rrc-sd is out of range", "command line", 0, "--rrc-sd", fmt::format("{:g}", sd_N_per_kN),
+                    fmt::format("0 to {:g} N/kN", kHighest_N_per_kN), ""});
+}
+
+/// Probability that the declared RRc is not above a limit.
+double calc_met_probability(double limit, double rrc, double rrc_sd) {
+  constexpr double kHalfStep = 5e-5;
+  if (rrc_sd <= 0.0) return models::round_declared_rrc(rrc) <= limit + kHalfStep ? 1.0 : 0.0;
+  return 0.5 * std::erfc((rrc - limit - kHalfStep) / (rrc_sd * std::sqrt(2.0)));
+}
+
+void fill_label(const models::ServiceDescription& service, double rrc, double rrc_sd, TireLabel& label) {
+  const models::TireClass tire_class = service.tire_class;
+  label.tire_class = name_of(tire_class);
+  label.rrc_N_per_kN = rrc / kLabelPerKilo;
+  label.declared_rrc_N_per_kN = models::round_declared_rrc(rrc) / kLabelPerKilo;
+  label.rrc_sd_N_per_kN = rrc_sd / kLabelPerKilo;
+  label.label_class = models::kLabelClasses[models::find_label_class(tire_class, rrc)];
+  const auto probabilities = models::calc_label_probabilities(tire_class, rrc, rrc_sd);
+  const auto bounds = models::list_label_bounds(tire_class);
+  for (std::size_t i = 0; i < models::kLabelClassCount; ++i) {
+    label.classes.push_back({models::kLabelClasses[i], {}, probabilities[i]});
+    if (i < bounds.size()) label.classes.back().upper_N_per_kN = bounds[i] / kLabelPerKilo;
+  }
+  for (const models::RrcLimit& limit : models::list_rrc_limits(tire_class, service.is_severe_snow)) {
+    label.limits.push_back({limit.stage, limit.rrc / kLabelPerKilo, calc_met_probability(limit.rrc, rrc, 0.0) > 0.5,
+                            calc_met_probability(limit.rrc, rrc, rrc_sd)});
+  }
+}
+
+Json make_label_json(const TireLabel& label) {
+  Json json = {{"format", "rollrig-label/1"},
+               {"tire_class", label.tire_class},
+               {"label_class", label.label_class},
+               {"rrc_N_per_kN", label.rrc_N_per_kN},
+               {"declared_rrc_N_per_kN", label.declared_rrc_N_per_kN},
+               {"rrc_sd_N_per_kN", label.rrc_sd_N_per_kN},
+               {"classes", Json::array()},
+               {"limits", Json::array()}};
+  for (const LabelClassShare& one : label.classes) {
+    json["classes"].push_back({{"name", one.name},
+                               {"upper_N_per_kN", one.upper_N_per_kN.has_value() ? Json(*one.upper_N_per_kN) : Json()},
+                               {"probability", one.probability}});
+  }
+  for (const ApprovalLimit& limit : label.limits) {
+    json["limits"].push_back({{"stage", limit.stage},
+                              {"upper_N_per_kN", limit.upper_N_per_kN},
+                              {"is_met", limit.is_met},
+                              {"probability", limit.probability}});
+  }
+  if (!label.warnings.empty()) json["warnings"] = label.warnings;
+  return json;
+}
+
+std::string format_label(const TireLabel& label, const std::string& source) {
+  Table summary{"", {}, {}};
+  summary.rows = {{"Class of the tire", label.tire_class},
+                  {"RRc", fmt::format("{:.3f} N/kN ({}), standard uncertainty {:.3f} N/kN", label.rrc_N_per_kN, source,
+                                      label.rrc_sd_N_per_kN)},
+                  {"RRc as declared", fmt::format("{:.1f} N/kN", label.declared_rrc_N_per_kN)},
+                  {"EU label class", label.label_class}};
+  Table classes{"Classes of the label", {"class", "RRc up to N/kN", "probability"}, {}};
+  for (const LabelClassShare& one : label.classes) {
+    classes.rows.push_back({one.name, one.upper_N_per_kN.has_value() ? fmt::format("{:.1f}", *one.upper_N_per_kN) : "-",
+                            fmt::format("{:.3f}", one.probability)});
+  }
+  Table limits{"Limits of UN R117", {"stage", "RRc up to N/kN", "met", "probability"}, {}};
+  for (const ApprovalLimit& limit : label.limits) {
+    limits.rows.push_back({fmt::format("{}", limit.stage), fmt::format("{:.1f}", limit.upper_N_per_kN),
+                           limit.is_met ? "yes" : "no", fmt::format("{:.3f}", limit.probability)});
+  }
+  return fmt::format("label   class {}\n", label.label_class) + format_tables({summary, classes, limits}) +
+         format_warnings(label.warnings);
+}
+
+}  // namespace
+
+TireLabel make_label(const LabelInput& input) {
+  std::optional<models::TireFile> tire;
+  if (!input.tire.empty()) tire = models::read_tire(read_config(find_asset("tires", input.tire)));
+  const models::ServiceDescription service = find_label_service(input, tire);
+  TireLabel label;
+  const double rrc = find_label_rrc(input, tire);
+  fill_label(service, rrc, find_label_rrc_sd(input, service.tire_class), label);
+  if (tire.has_value() && !input.rrc_N_per_kN.has_value()) label.warnings = tire->list_class_doubts();
+  label.text = format_label(label, input.rrc_N_per_kN.has_value() ? "given" : "simulated test of ISO 28580");
+  label.json = to_text(make_label_json(label));
+  return label;
+}
+
+}  // namespace rollrig

@@ -1,0 +1,75 @@
+#include "rollrig/vecto.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "exports/vecto_tire.h"
+#include "models/tire/label_class.h"
+#include "models/tire/tire_file.h"
+#include "scenarios/scaffold/iso_test.h"
+#include "sim/core/assets.h"
+#include "sim/core/error.h"
+
+namespace rollrig {
+namespace {
+
+/// An id that XML allows.
+std::string make_vecto_id(const std::string& name) {
+  std::string id = "TYR-";
+  for (const char c : name) id += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ? c : '-';
+  return id;
+}
+
+double find_declared_rrc(const VectoTireInput& input, const models::TireFile& tire) {
+  if (!input.rrc_N_per_kN.has_value()) return models::round_declared_rrc(scenarios::simulate_iso_rrc(tire));
+  const double rrc = *input.rrc_N_per_kN * 1e-3;
+  if (rrc >= models::kLowestTireRrc && rrc <= models::kHighestTireRrc) return models::round_declared_rrc(rrc);
+  throw InputError(
+      {fmt::format("no tire has an RRc of {:g} N/kN", *input.rrc_N_per_kN), "command line", 0, "--rrc",
+       fmt::format("{:g}", *input.rrc_N_per_kN),
+       fmt::format("{:g} to {:g} N/kN, which is kg/t", 1e3 * models::kLowestTireRrc, 1e3 * models::kHighestTireRrc),
+       ""});
+}
+
+std::string find_vecto_dimension(const VectoTireInput& input, const models::TireFile& tire) {
+  const std::string dimension = input.dimension.empty() ? tire.designation : input.dimension;
+  const std::vector<std::string>& known = exports::list_vecto_dimensions();
+  if (std::find(known.begin(), known.end(), dimension) != known.end()) return dimension;
+  InputProblem problem = unknown_name("size of VECTO", dimension, known);
+  problem.file = "command line";
+  problem.key = "--dimension";
+  throw InputError(problem);
+}
+
+std::string take_or(const std::string& given, const std::string& fallback) { return given.empty() ? fallback : given; }
+
+}  // namespace
+
+VectoTireFile make_vecto_tire(const VectoTireInput& input) {
+  const models::TireFile tire = models::read_tire(read_config(find_asset("tires", input.tire)));
+  if (!tire.iso_28580.has_value()) {
+    throw InputError({fmt::format("tire '{}' has no table [iso_28580], which says the load of the test", tire.name),
+                      tire.path, 0, "", "", "a table [iso_28580]", ""});
+  }
+  exports::VectoTire component;
+  component.id = make_vecto_id(tire.name);
+  component.manufacturer = take_or(input.manufacturer, "simulated");
+  component.model = take_or(input.model, tire.name);
+  component.certification_number = take_or(input.certification_number, "simulated, not certified");
+  component.date = take_or(input.date, "2017-01-01T00:00:00Z");
+  component.app_version = fmt::format("rollrig {}", ROLLRIG_VERSION);
+  component.dimension = find_vecto_dimension(input, tire);
+  component.rrc = find_declared_rrc(input, tire);
+  component.load_N = static_cast<int>(std::lround(tire.iso_28580->load_N));
+  VectoTireFile made;
+  made.xml = exports::make_vecto_xml(component);
+  made.rrc = component.rrc;
+  made.load_N = component.load_N;
+  made.warnings = tire.list_class_doubts();
+  return made;
+}
+
+}  // namespace rollrig

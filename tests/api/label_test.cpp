@@ -1,0 +1,111 @@
+// Label classes and the tire of VECTO by a program of somebody else's, through the shared library.
+#include <rollrig/error.h>
+#include <rollrig/label.h>
+#include <rollrig/vecto.h>
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/run_program.h"
+
+using rollrig::LabelInput;
+using rollrig::make_label;
+using rollrig::TireLabel;
+using rollrig::tests::run_program;
+
+namespace {
+
+/// The option that is named where the input is refused.
+std::string find_refused_label(const LabelInput& input) {
+  try {
+    make_label(input);
+  } catch (const rollrig::InputError& error) {
+    return error.problem().key;
+  }
+  return "";
+}
+
+LabelInput make_input(double rrc_N_per_kN, const char* tire_class) {
+  LabelInput input;
+  input.rrc_N_per_kN = rrc_N_per_kN;
+  input.tire_class = tire_class;
+  return input;
+}
+
+rollrig::VectoTireInput make_vecto_input(const char* tire) {
+  rollrig::VectoTireInput input;
+  input.tire = tire;
+  return input;
+}
+
+}  // namespace
+
+TEST_CASE("a label is found as the command finds it", "[fast]") {
+  LabelInput input = make_input(8.4, "C1");
+  const TireLabel label = make_label(input);
+  CHECK(label.text == run_program("label --rrc 8.4 --class C1").out);
+  CHECK(label.json == run_program("label --rrc 8.4 --class C1 --json -").out);
+  CHECK(label.label_class == "C");
+  CHECK(label.limits[1].is_met);
+  input.rrc_sd_N_per_kN = 0.5;
+  input.is_severe_snow = true;
+  input.load_index = "91";
+  input.speed_symbol = "v";
+  const std::string command = "label --rrc 8.4 --class C1 --rrc-sd 0.5 --severe-snow --load-index 91 --speed-symbol v";
+  CHECK(make_label(input).json == run_program(command + " --json -").out);
+}
+
+TEST_CASE("a load index from 122 tells class C3 by itself, and a tire file its own", "[fast]") {
+  LabelInput input = make_input(5.55, "");
+  input.load_index = "156/150";
+  CHECK(make_label(input).tire_class == "C3");
+  LabelInput of_tire;
+  of_tire.tire = "c3_315_80r22_5";
+  const TireLabel label = make_label(of_tire);
+  CHECK(label.label_class == "C");
+  CHECK(label.rrc_N_per_kN == Approx(5.55).epsilon(0.01));
+  CHECK(label.warnings.empty());
+}
+
+TEST_CASE("the rolling resistance that the terms of a label cannot be found for is refused", "[fast]") {
+  CHECK(find_refused_label(make_input(8.4, "C1")).empty());
+  CHECK(find_refused_label(make_input(80.0, "C1")) == "--rrc");
+  CHECK(find_refused_label(make_input(0.008, "C1")) == "--rrc");
+  CHECK(find_refused_label(make_input(8.4, "C4")) == "--class");
+  CHECK(find_refused_label(make_input(8.4, "")) == "--class");
+  CHECK(find_refused_label({}) == "--class");
+  LabelInput input = make_input(8.4, "C2");
+  input.load_index = "150";
+  CHECK(find_refused_label(input) == "--class");
+  input.load_index = "59";
+  CHECK(find_refused_label(input) == "--load-index");
+  input.load_index = "109";
+  input.speed_symbol = "I";
+  CHECK(find_refused_label(input) == "--speed-symbol");
+  input.speed_symbol = "L";
+  CHECK(find_refused_label(input) == "--class");
+  input.speed_symbol = "T";
+  CHECK(find_refused_label(input).empty());
+  input.rrc_sd_N_per_kN = -1.0;
+  CHECK(find_refused_label(input) == "--rrc-sd");
+  LabelInput of_tire;
+  of_tire.tire = "a50";  // without [service_description]
+  CHECK(find_refused_label(of_tire) == "--class");
+}
+
+TEST_CASE("the tire of VECTO is that of the command, with RRc and load of the test", "[fast]") {
+  const rollrig::VectoTireFile made = rollrig::make_vecto_tire(make_vecto_input("c3_315_80r22_5"));
+  CHECK(made.xml == run_program("export c3_315_80r22_5 --vecto -").out);
+  CHECK(made.load_N == 33350);
+  CHECK(made.rrc == Approx(0.0055).margin(1.01e-4));  // 5.55 N/kN, rounded to one side or the other
+  CHECK(made.xml.find("<FzISO>33350</FzISO>") != std::string::npos);
+  rollrig::VectoTireInput input = make_vecto_input("c3_315_80r22_5");
+  input.rrc_N_per_kN = 4.87;
+  input.dimension = "315/70 R22.5";
+  const rollrig::VectoTireFile declared = rollrig::make_vecto_tire(input);
+  CHECK(declared.rrc == Approx(0.0049));
+  CHECK(declared.xml.find("<RRCDeclared>0.0049</RRCDeclared>") != std::string::npos);
+  input.rrc_N_per_kN = 49.0;
+  CHECK_THROWS_AS(rollrig::make_vecto_tire(input), rollrig::InputError);
+  CHECK_THROWS_AS(rollrig::make_vecto_tire(make_vecto_input("c1_205_55r16")),
+                  rollrig::InputError);  // VECTO has no such size
+}
