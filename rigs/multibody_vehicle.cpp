@@ -212,7 +212,9 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
 
   void fill_integrands(double* integrands) const override {
     const DriveEvaluation& at = drive_->evaluation(state_);
-    put_vehicle_integrands(present_, at.demand_N, at.speed_m_s, find_powers(), integrands);
+    const VehiclePowers<double> powers = find_powers();
+    put_vehicle_integrands(present_, at.demand_N, at.speed_m_s, powers, integrands);
+    put_battery_integrand(layout_, at.speed_m_s, powers.drive_W, integrands);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       const models::Instant<double>& now = contact(i).now;
       constexpr double kLeast_m_s = 1.0;  // below, slip power over speed says nothing

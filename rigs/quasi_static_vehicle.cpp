@@ -177,6 +177,7 @@ void QuasiStaticVehicle<S>::fill_vehicle_integrands(S* integrands) const {
   power.drive_W = own_share > 0.0 ? S(power.motor_W / own_share) : S(motor_N_ * speed_m_s_);
   if (is_on_road()) power.drag_W = (rolled_off_N_ - given_force_N_) * speed_m_s_;
   put_vehicle_integrands(present_, demand_N_, speed_m_s_, power, integrands);
+  put_battery_integrand(layout_, speed_m_s_, power.drive_W, integrands);
 }
 
 template <class S>

@@ -57,6 +57,9 @@ std::vector<sim::Integral> make_vehicle_integrals(const VehicleLayout& layout) {
     add("counted_rolling_energy", kVehicleIntegralEnergyError_J);
     add("counted_rrc", kVehicleIntegralTimeError_s);
   }
+  if (layout.powertrain_map.has_value()) {
+    integrals.push_back({"battery_energy", Role::kChannel, kVehicleIntegralThroughputError_J});
+  }
   return integrals;
 }
 

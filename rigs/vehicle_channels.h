@@ -62,7 +62,13 @@ constexpr std::size_t index_of(WheelIntegral integral, std::size_t wheel) {
          static_cast<std::size_t>(integral);
 }
 
+/// Those of the vehicle, those of each wheel, and with a map of the powertrain the energy of the battery.
 std::vector<sim::Integral> make_vehicle_integrals(const VehicleLayout& layout);
+
+/// Index of the energy of the battery, where the layout has a map of the powertrain.
+inline std::size_t find_battery_integral(const VehicleLayout& layout) {
+  return index_of(VehicleIntegral::kCount) + layout.wheels.size() * static_cast<std::size_t>(WheelIntegral::kCount);
+}
 std::vector<sim::Store> make_vehicle_stores();
 
 /// Recorded channels: given ones first, then measured ones, as in formats.md, wheel by wheel; then what only
@@ -161,6 +167,15 @@ void put_vehicle_integrands(const PresentProgram& present, const S& traction_N, 
   put(VehicleIntegral::kTireDamperLoss, power.tire_damper_W);
   put(VehicleIntegral::kSuspensionDamperLoss, power.suspension_damper_W);
   put_heat(power.heat, &integrands[index_of(VehicleIntegral::kHeatGenerated)]);
+}
+
+/// Power of the battery for what is simulated, by the map of the whole vehicle; nothing without a map.
+template <class S>
+void put_battery_integrand(const VehicleLayout& layout, const S& speed_m_s, const S& drive_W, S* integrands) {
+  if (!layout.powertrain_map.has_value()) return;
+  const S share(layout.share);
+  integrands[find_battery_integral(layout)] =
+      share * models::calc_battery_W(*layout.powertrain_map, speed_m_s, S(drive_W / share));
 }
 
 /// Integrands of a wheel whose first one is `first`.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "models/tire/tire_file.h"
+#include "models/vehicle/powertrain_map.h"
 #include "models/vehicle/road_load.h"
 #include "sim/core/schema.h"
 
@@ -34,20 +35,53 @@ struct VehicleSuspension {
 
 struct VehiclePowertrain {
   double efficiency = 0.0;
+  double regeneration_efficiency = 0.0;  // 0: as efficiency
   double regeneration_limit_m_s2 = 0.0;
   double regeneration_fade_m_s = 0.0;
+  double auxiliary_power_W = 0.0;
+  std::optional<models::PowertrainMap> map;  // in place of both efficiencies
+
+  double calc_regeneration_efficiency() const {
+    return regeneration_efficiency > 0.0 ? regeneration_efficiency : efficiency;
+  }
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"efficiency", between(0.05, 1.0), "Battery to wheels, and back, constant. Assumed: 0.85", 0.85},
           p.efficiency);
+    visit(Field{"regeneration_efficiency", between(0.0, 1.0), "Wheels to battery; 0: as efficiency", 0.0},
+          p.regeneration_efficiency);
     visit(Field{"regeneration_limit_m_s2", non_negative(),
                 "Deceleration up to which the driven axles brake by their motor. Assumed: 1.5 m/s2", 1.5},
           p.regeneration_limit_m_s2);
     visit(Field{"regeneration_fade_km_h", between(0.001, 500.0),
                 "Speed below which it fades to nothing. Assumed: 10 km/h", 10.0},
           p.regeneration_fade_m_s);
+    visit(Field{"auxiliary_power_W", between(0.0, 1e6), "What else the battery feeds while the vehicle is on", 0.0},
+          p.auxiliary_power_W);
   }
+};
+
+/// Energy of a full battery, and what a full charge takes from the mains.
+struct VehicleBattery {
+  double usable_J = 0.0;
+  double recharge_J = 0.0;  // 0: by charging_efficiency
+  double charging_efficiency = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"usable_energy_kWh", between(0.001, 1e6),
+                "Usable battery energy: direct current from full to empty (SAE J1634: UBE)"},
+          p.usable_J);
+    visit(Field{"recharge_energy_kWh", non_negative(),
+                "Alternating current for a full charge after that; 0: by charging_efficiency", 0.0},
+          p.recharge_J);
+    visit(Field{"charging_efficiency", between(0.05, 1.0),
+                "Usable energy over recharge energy, where that is not given. Assumed: 0.9", 0.9},
+          p.charging_efficiency);
+  }
+
+  double calc_recharge_J() const { return recharge_J > 0.0 ? recharge_J : usable_J / charging_efficiency; }
 };
 
 /// An axle with its wheels. Shares are of all axles of the vehicle and sum to 1.
@@ -85,6 +119,7 @@ struct VehicleFile {
   std::vector<VehicleAxle> axles;  // from the front
   bool names_tires = false;        // in files beside this one
   VehiclePowertrain powertrain;
+  std::optional<VehicleBattery> battery;
   /// Road load given directly, instead of drag and tires (§3.4.3, (3.20)).
   std::optional<models::RoadLoad<double>> road_load;
 

@@ -63,6 +63,7 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double a
   layout.roller_radius_m = rig.drum.diameter_m / 2.0;
   layout.body_height_m = vehicle.center_of_gravity_height_m;
   layout.tie_down = rig.tie_down;
+  layout.powertrain_map = vehicle.powertrain.map;
   if (is_tied_down(layout.machine)) {
     layout.resistance = scale(set_load, share);
   } else if (vehicle.road_load.has_value()) {

@@ -2,10 +2,12 @@
 /// A vehicle on its rollers or on the road as the equations take it: the wheels that are simulated, and what
 /// of the vehicle each of them stands for.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "models/corner.h"
+#include "models/vehicle/powertrain_map.h"
 #include "rigs/rig_file.h"
 #include "rigs/vehicle_file.h"
 
@@ -43,6 +45,8 @@ struct VehicleLayout {
   /// that is given by it alone.
   models::RoadLoad<double> resistance = {};
   std::vector<WheelPlace> wheels = {};
+  /// Where it is given, the energy of the battery is an integral of its own, over the whole vehicle's power.
+  std::optional<models::PowertrainMap> powertrain_map = {};
 };
 
 /// Names of an axle's wheels from left to right: by its side, of dual tires also outer and inner; a single wheel has

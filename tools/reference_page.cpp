@@ -113,7 +113,7 @@ std::string make_reference_page() {
       "tie_down"_a = describe_keys<rigs::TieDownParameters>(), "tire_cooling"_a = describe_keys<models::TireCooling>(),
       "body"_a = describe_keys<rigs::VehicleBody>(), "axle"_a = describe_keys<rigs::VehicleAxle>(),
       "suspension"_a = describe_keys<rigs::VehicleSuspension>(),
-      "powertrain"_a = describe_keys<rigs::VehiclePowertrain>(),
+      "powertrain"_a = describe_keys<rigs::VehiclePowertrain>(), "battery"_a = describe_keys<rigs::VehicleBattery>(),
       "road_load"_a = describe_keys<models::RoadLoad<double>>(),
       "two_axle_geometry"_a = describe_keys<rigs::TwoAxleGeometry>(),
       "two_axle_brakes"_a = describe_keys<rigs::TwoAxleBrakes>(),

@@ -83,6 +83,28 @@ TEST_CASE("format /2 says the same as /1, is written and read again", "[fast]") 
   check_same_vehicle(vehicle, rigs::read_vehicle(parse_config(rigs::write_vehicle(vehicle), "car.toml")));
 }
 
+TEST_CASE("a battery and a map of the powertrain are read in both formats, written and read again", "[fast]") {
+  const std::string more =
+      "[powertrain]\nauxiliary_power_W = 350.0\n[powertrain.map]\nspeeds_km_h = [0.0, 36.0, 120.0]\n"
+      "powers_kW = [-40.0, 80.0]\nefficiency = [[0.5, 0.7], [0.8, 0.9], [0.75, 0.92]]\n"
+      "[battery]\nusable_energy_kWh = 67.2\nrecharge_energy_kWh = 75.6\n";
+  const rigs::VehicleFile vehicle = read("1", "tires = 4\n" + more);
+  REQUIRE(vehicle.powertrain.map.has_value());
+  CHECK(vehicle.powertrain.auxiliary_power_W == 350.0);
+  CHECK(vehicle.powertrain.map->speeds_m_s[1] == Approx(10.0));
+  CHECK(vehicle.powertrain.map->powers_W == std::vector<double>{-40e3, 80e3});
+  CHECK(vehicle.powertrain.map->efficiency[2] == std::vector<double>{0.75, 0.92});
+  REQUIRE(vehicle.battery.has_value());
+  CHECK(vehicle.battery->usable_J == Approx(67.2 * 3.6e6));
+  CHECK(vehicle.battery->calc_recharge_J() == Approx(75.6 * 3.6e6));
+  const std::string written = rigs::write_vehicle(vehicle);
+  CHECK(written == rigs::write_vehicle(rigs::read_vehicle(parse_config(written, "car.toml"))));
+  const rigs::VehicleFile plain = read("1", "tires = 4\n");
+  CHECK_FALSE(plain.powertrain.map.has_value());
+  CHECK_FALSE(plain.battery.has_value());
+  CHECK(plain.powertrain.calc_regeneration_efficiency() == plain.powertrain.efficiency);
+}
+
 TEST_CASE("axles have names, tires, pressures and suspensions of their own", "[fast]") {
   const rigs::VehicleFile vehicle =
       read("2",
