@@ -30,7 +30,9 @@ std::vector<std::string> words_after(const std::string& what) {
   if (what == "completion") return {"bash", "zsh", "fish"};
   std::vector<std::string> words;
   if (what == "--set" || what == "--vary") {
-    for (const std::string& cycle : list_assets("cycles")) words.push_back("program=" + cycle);
+    for (const char* key : {"cycle=", "program="}) {
+      for (const std::string& cycle : list_assets("cycles")) words.push_back(key + cycle);
+    }
   }
   if (what == "describe") {
     words = names_of(list_scenarios());

@@ -1,8 +1,14 @@
 /// SAE J1634 multi-cycle test on a dynamometer, in the standard's order or the source's (§3.4.4).
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include <boost/algorithm/string/predicate.hpp>
+
+#include "scenarios/common/drive_sections.h"
 #include "scenarios/common/energy_uncertainty.h"
-#include "scenarios/common/iso_coefficient.h"
-#include "scenarios/common/vehicle_bench.h"
+#include "scenarios/common/multi_cycle_economy.h"
 
 namespace rollrig::scenarios::sae_j1634 {
 
@@ -18,6 +24,7 @@ struct Settings {
   double end_s = 0.0;
   double ramp_s = 0.0;
   std::optional<double> count_from_m_s;
+  double label_factor = 0.0;
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -45,6 +52,10 @@ struct Settings {
     visit(Field{"count_from_km_h", between(0.0, 100.0),
                 "Energies of rolling resistance and RRc count above it; default: 0 (standard), 20 (source, §4.2.1)"},
           p.count_from_m_s);
+    visit(Field{"label_factor", between(0.1, 1.0),
+                "Range and MPGe on a label over those of the test. Second-hand: 0.7 without tests of all five cycles",
+                0.7},
+          p.label_factor);
   }
 
   bool is_source() const { return variant.value == "source"; }
@@ -54,58 +65,14 @@ struct Settings {
   void complete(const RunSpec& spec) { conditions.complete(spec); }
 };
 
-/// One section, or all of them together: of one tire (the first that is simulated), and of the whole vehicle.
-struct Section {
-  std::string name;
-  double distance_m = 0.0;
-  double rr_J = 0.0;
-  std::optional<double> rr_iso_J;
-  std::optional<double> mean_rrc;
-  double start_K = 0.0;
-  double end_K = 0.0;
-  double vehicle_rr_J = 0.0;
-  double drive_J = 0.0;
-  double recuperated_J = 0.0;
-  double battery_J = 0.0;
-
-  std::optional<double> calc_difference() const {
-    if (!rr_iso_J.has_value() || *rr_iso_J <= 0.0) return std::nullopt;
-    return rr_J / *rr_iso_J - 1.0;
-  }
-
-  void visit(ResultSheet& visit) const {
-    visit(Result{"name", "section", "", "its phase", Column::kBoth}, name);
-    visit(Result{"distance_km", "", ".2f", "driven in it"}, distance_m);
-    visit(Result{"rr_energy_Wh", "model", ".1f",
-                 "energy of rolling resistance of one tire (true loss), counted stretches"},
-          rr_J);
-    visit(Result{"rr_energy_iso_Wh", "ISO", ".1f",
-                 "the same by iso_rrc_true_N_per_kN; null where the tire has no coefficient, or no loss of its own"},
-          rr_iso_J);
-    visit(Result{"difference_percent", "diff.", ".1f", "of the first from the second"}, calc_difference());
-    visit(Result{"mean_rrc_N_per_kN", "RRc", ".2f", "mean over time of F_rr/Fz, counted stretches"}, mean_rrc);
-    visit(Result{"temperature_start_degC", "start", ".1f", "of the liner", Column::kSecond}, start_K);
-    visit(Result{"temperature_end_degC", "end", ".1f", "of the liner", Column::kSecond}, end_K);
-    visit(Result{"vehicle_rr_energy_Wh", "tires", ".1f",
-                 "energy of rolling resistance of all tires that roll, counted stretches"},
-          vehicle_rr_J);
-    visit(Result{"wheel_energy_Wh", "hubs", ".0f", "given out at the driven hubs, whole vehicle", Column::kSecond},
-          drive_J);
-    visit(Result{"recuperated_Wh", "recup.", ".0f", "taken in by the motor while it brakes", Column::kSecond},
-          recuperated_J);
-    visit(Result{"battery_energy_Wh", "battery", ".0f", "through the constant efficiency of the powertrain, both ways",
-                 Column::kSecond},
-          battery_J);
-  }
-};
-
 struct Results {
   std::string wheels;
   double load_N = 0.0;
   double count_from_m_s = 0.0;
   std::optional<double> iso_rrc;
-  std::vector<Section> sections;
-  std::optional<Section> total;
+  std::vector<DriveSection> sections;
+  std::optional<DriveSection> total;
+  EconomyResults economy;
 
   void visit(ResultSheet& visit) const {
     visit(Remark{"Wheels simulated"}, wheels);
@@ -114,9 +81,11 @@ struct Results {
     visit(Result{"iso_rrc_true_N_per_kN", "ISO coefficient", ".3f",
                  "of the tire's file, with the loss that its skim test subtracted; null where it has none"},
           iso_rrc);
+    economy.visit(visit);
     visit(ResultList{"sections", "Rolling resistance of one tire, by model and by ISO coefficient; of all tires",
                      "each section", "Liner of that tire; energy of the whole vehicle, at its hubs and its battery"},
           sections, total);
+    economy.visit_cycles(visit);
   }
 };
 
@@ -147,81 +116,26 @@ VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
 }
 
 bool is_section(const std::string& phase) {
-  return phase.rfind("city", 0) == 0 || phase.rfind("highway", 0) == 0 || phase.rfind("constant speed", 0) == 0;
-}
-
-/// The ISO coefficient of the tire that is shown, as a true loss like the energy of the model.
-std::optional<double> find_iso_rrc(const RunSpec& spec, const rigs::VehicleLayout& layout) {
-  return calc_true_iso_rrc(rigs::tire_of(spec.vehicle->axles[layout.wheels.front().axle], spec.tire), spec.baseline);
-}
-
-Section evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout,
-                         const sim::Recording<double>& recording, std::size_t phase) {
-  using rigs::VehicleIntegral;
-  using rigs::WheelIntegral;
-  const SectionReader reader(recording, layout, phase);
-  const sim::PhaseSpan& span = recording.phases[phase];
-  Section section;
-  section.name = span.name;
-  section.distance_m = reader.common(VehicleIntegral::kDistance);
-  section.rr_J = reader.wheel(WheelIntegral::kCountedRollingEnergy, 0);
-  const bool tires_lose = is_indoors(spec.rig.kind->traits) || !spec.vehicle->road_load.has_value();
-  const auto iso_rrc = find_iso_rrc(spec, layout);
-  if (iso_rrc.has_value() && tires_lose) {
-    section.rr_iso_J =
-        *iso_rrc * layout.wheels.front().static_load_N * reader.common(VehicleIntegral::kCountedDistance);
-  }
-  const double counted_s = reader.common(VehicleIntegral::kCountedTime);
-  if (counted_s > 0.0) section.mean_rrc = reader.wheel(WheelIntegral::kCountedRrc, 0) / counted_s;
-  const std::vector<double>& temperature_K =
-      recording.channel(rigs::wheel_channel(quantities::kLinerTemperature, layout.wheels.front()));
-  section.start_K = temperature_K[recording.row_at(span.start_s)];
-  section.end_K = temperature_K[recording.row_at(span.end_s - spec.sample_interval_s)];
-  for (std::size_t wheel = 0; wheel < layout.wheels.size(); ++wheel) {
-    section.vehicle_rr_J += reader.wheel(WheelIntegral::kCountedRollingEnergy, wheel) / layout.share;
-  }
-  section.drive_J = reader.vehicle(VehicleIntegral::kDriveEnergy);
-  section.recuperated_J = reader.vehicle(VehicleIntegral::kRecuperated);
-  const double efficiency = spec.vehicle->powertrain.efficiency;
-  section.battery_J = section.drive_J / efficiency - section.recuperated_J * efficiency;
-  return section;
-}
-
-/// The whole test; without ISO energy where a section has none.
-Section add_up(const std::vector<Section>& sections) {
-  Section total;
-  total.name = "all sections";
-  total.start_K = total.end_K = std::nan("");
-  total.mean_rrc = std::nan("");
-  total.rr_iso_J = 0.0;
-  for (const Section& section : sections) {
-    total.distance_m += section.distance_m;
-    total.rr_J += section.rr_J;
-    total.rr_iso_J = total.rr_iso_J.has_value() && section.rr_iso_J.has_value()
-                         ? std::optional(*total.rr_iso_J + *section.rr_iso_J)
-                         : std::nullopt;
-    total.vehicle_rr_J += section.vehicle_rr_J;
-    total.drive_J += section.drive_J;
-    total.recuperated_J += section.recuperated_J;
-    total.battery_J += section.battery_J;
-  }
-  return total;
+  return boost::starts_with(phase, "city") || boost::starts_with(phase, "highway") ||
+         boost::starts_with(phase, "constant speed");
 }
 
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const rigs::VehicleLayout layout = settings.conditions.make_layout(spec);
   Results results;
-  results.wheels = settings.conditions.wheels == 1 ? "one of axle " + settings.conditions.wheel_of.value
-                                                   : fmt::format("{}; the tire shown is the {}", layout.wheels.size(),
-                                                                 plain_name(layout.wheels.front().position));
+  results.wheels = describe_wheels(settings.conditions, layout);
   results.load_N = layout.wheels.front().static_load_N;
   results.count_from_m_s = settings.calc_count_from_m_s();
-  results.iso_rrc = find_iso_rrc(spec, layout);
+  results.iso_rrc = find_shown_iso_rrc(spec, layout);
   for (std::size_t i = 0; i < outcome.recording.phases.size(); ++i) {
     if (!is_section(outcome.recording.phases[i].name)) continue;
     results.sections.push_back(evaluate_section(spec, layout, outcome.recording, i));
   }
   results.total = add_up(results.sections);
+  if (!settings.is_source()) {
+    results.economy = evaluate_economy(spec, results.sections, settings.label_factor, outcome);
+  }
+  warn_of_map(spec, layout, outcome);
   outcome.make_measurement_model = [&spec, used = outcome.settings] { return make_section_energy_model(spec, used); };
   return results;
 }

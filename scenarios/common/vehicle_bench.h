@@ -27,6 +27,8 @@ class SectionReader {
   double vehicle(rigs::VehicleIntegral integral) const { return integrals_[rigs::index_of(integral)] / layout_.share; }
   /// Of what does not go with the vehicle's size: distance, time.
   double common(rigs::VehicleIntegral integral) const { return integrals_[rigs::index_of(integral)]; }
+  /// Of the whole vehicle by the map of its powertrain, which it must have.
+  double battery_J() const { return integrals_[rigs::find_battery_integral(layout_)] / layout_.share; }
   double wheel(rigs::WheelIntegral integral, std::size_t wheel) const {
     return integrals_[rigs::index_of(integral, wheel)];
   }

@@ -92,7 +92,7 @@ class ResultSheet {
   void operator()(const Result& result, bool value) { add(result, value, value ? "yes" : "no"); }
   void operator()(const Result& result, const std::string& value) { add(result, value, value); }
   void operator()(const Result& result, const std::optional<std::string>& value) {
-    value.has_value() ? (*this)(result, *value) : add(result, Json(), "");
+    add(result, value.has_value() ? Json(*value) : Json(), value.value_or(""));
   }
   void operator()(const Remark& remark, const std::string& text);
   void operator()(const JointLine& line);

@@ -20,13 +20,14 @@ struct UnitToken {
 constexpr double kHour_s = 3600.0;
 
 /// Every unit that may stand in a suffix. A power is written into the token, as in "m2".
-constexpr std::array<UnitToken, 33> kTokens{{
+constexpr std::array<UnitToken, 34> kTokens{{
     {"N", "N", dimension::kForce, 1.0},
     {"kN", "kN", dimension::kForce, 1e3},
     {"Nm", "N m", {1, 2, -2, 0}, 1.0},
     {"m", "m", dimension::kLength, 1.0},
     {"mm", "mm", dimension::kLength, 1e-3},
     {"km", "km", dimension::kLength, 1e3},
+    {"mi", "mi", dimension::kLength, kMile_m},
     {"m2", "m2", {0, 2, 0, 0}, 1.0},
     {"m3", "m3", {0, 3, 0, 0}, 1.0},
     {"s", "s", dimension::kTime, 1.0},

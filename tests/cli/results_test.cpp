@@ -27,6 +27,7 @@ std::string settings_of(const std::string& scenario) {
   const std::string rows = "--set 'program=" ROLLRIG_SOURCE_DIR "/assets/regression/";
   const std::string drum = "--set rig.drum.diameter_m=1.707 ";
   if (scenario == "sae_j1634") return "--set wheels=1 --set mid_min=5 --set end_min=5";
+  if (scenario == "drive_cycle") return "--set wheels=1 --set repetitions=2 --set cycle=hwfet";
   if (scenario == "coastdown" || scenario == "dyno_setting") return "--set warm_up_min=1";
   if (scenario == "follow_roller") return rows + "follow_roller_a50.csv'";
   if (scenario == "follow_road") return rows + "follow_road_a50.csv'";

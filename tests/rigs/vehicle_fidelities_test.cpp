@@ -172,6 +172,20 @@ TEST_CASE("they agree on the standard's multi-cycle test", "[slow]") {
   compare_j1634({"wheels=1"}, 3e-4);
 }
 
+TEST_CASE("they agree on a single cycle, with a map of the powertrain", "[slow]") {
+  Pair pair;
+  for (const bool multibody : {true, false}) {
+    auto spec =
+        tests::make_spec("drive_cycle", "a50", {"wheels=1", "wheel_of=rear"}, multibody ? "multibody" : "quasi_static");
+    spec.vehicle->powertrain.map = models::PowertrainMap{
+        {0.0, 12.0, 40.0}, {-60e3, 0.0, 90e3}, {{0.5, 0.6, 0.7}, {0.8, 0.7, 0.9}, {0.85, 0.8, 0.9}}};
+    (multibody ? pair.multibody : pair.quasi_static) = scenarios::run_scenario(spec, {});
+  }
+  compare_liners(pair);
+  compare_loss_forces(pair);
+  compare_sections(pair, 3e-4, 3e-4);
+}
+
 TEST_CASE("they agree on the whole vehicle", "[slow]") { compare_j1634({"wheels=4", "variant=source"}); }
 
 TEST_CASE("they agree on coastdowns, on the road and on rollers", "[fast]") {
