@@ -14,7 +14,10 @@
 #include "tests/support/drum_fixture.h"
 
 using namespace rollrig;
-using namespace rollrig::scenarios;
+using scenarios::calc_economy;
+using scenarios::calc_phase_weights;
+using scenarios::CycleEconomy;
+using scenarios::EnergySection;
 
 namespace {
 
@@ -44,8 +47,8 @@ Certificate read_certificate() {
 }
 
 /// A multi-cycle test, quasi-static, that a test may change before it runs.
-RunSpec make_j1634(const std::vector<std::string>& settings = kShort, const std::string& rig = "dyno_1m2") {
-  RunSpec spec = tests::make_spec("sae_j1634", "a50", settings, "quasi_static");
+scenarios::RunSpec make_j1634(const std::vector<std::string>& settings = kShort, const std::string& rig = "dyno_1m2") {
+  scenarios::RunSpec spec = tests::make_spec("sae_j1634", "a50", settings, "quasi_static");
   spec.rig = rigs::read_rig(read_config(find_asset("rigs", rig)));
   return spec;
 }
@@ -67,8 +70,8 @@ TEST_CASE("phase scaling gives a certificate's usable energy, consumption and ra
   const Certificate certificate = read_certificate();
   REQUIRE(certificate.city.size() == 4);
   REQUIRE(certificate.highway.size() == 2);
-  const MultiCycleEconomy economy =
-      calc_multi_cycle_economy(certificate.city, certificate.highway, {certificate.all_J, 75.559 * kWh});
+  const scenarios::MultiCycleEconomy economy =
+      scenarios::calc_multi_cycle_economy(certificate.city, certificate.highway, {certificate.all_J, 75.559 * kWh});
   // The certificate (README.md beside its sections), within the rounding of its sections: 0.05 Wh of 1.2 kWh, 0.0005
   // of 7.4 mi.
   CHECK(economy.charge.usable_J / 3600.0 == Approx(67198.7).margin(0.05));
@@ -114,14 +117,14 @@ TEST_CASE("city and highway combine as in the example of the regulation; 33.7 kW
   // 10 CFR 474, appendix, example 1: 265 and 220 Wh/mi, 244.75 combined.
   const CycleEconomy city{265.0 * kWhPerMile, 4e5, 300.0 * kWhPerMile};
   const CycleEconomy highway{220.0 * kWhPerMile, 3e5, 250.0 * kWhPerMile};
-  CHECK(combine_economy(city, highway).dc_J_per_m / kWhPerMile == Approx(244.75));
-  CHECK(calc_mpge(337.0 * kWhPerMile) == Approx(100.0));
+  CHECK(scenarios::combine_economy(city, highway).dc_J_per_m / kWhPerMile == Approx(244.75));
+  CHECK(scenarios::calc_mpge(337.0 * kWhPerMile) == Approx(100.0));
 }
 
 TEST_CASE("on its road load alone, without tires that warm up, no section is colder than another", "[fast]") {
-  RunSpec spec = make_j1634({"mid_min=5", "end_min=5"}, "road");
+  scenarios::RunSpec spec = make_j1634({"mid_min=5", "end_min=5"}, "road");
   spec.vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", "volvo_ex30")));
-  const Json result = run_scenario(spec, {}).result;
+  const Json result = scenarios::run_scenario(spec, {}).result;
   CHECK(std::abs(number_of(result, "first_city_excess_percent")) < 1e-4);
   CHECK(number_of(result, "first_city_tire_excess_Wh") == 0.0);
   CHECK_FALSE(result.contains("first_city_tire_share_percent"));  // of nothing
@@ -131,7 +134,7 @@ TEST_CASE("where only the tires warm up they explain the first section, beside a
   const auto share = [](const std::vector<std::string>& more) {
     std::vector<std::string> settings = kShort;
     settings.insert(settings.end(), more.begin(), more.end());
-    const Json result = run_scenario(make_j1634(settings), {}).result;
+    const Json result = scenarios::run_scenario(make_j1634(settings), {}).result;
     CHECK(number_of(result, "first_city_excess_percent") > 0.0);
     return number_of(result, "first_city_tire_share_percent");
   };
@@ -143,8 +146,8 @@ TEST_CASE("where only the tires warm up they explain the first section, beside a
 }
 
 TEST_CASE("without a battery the test takes all of it; with one, its own energy scales the phases", "[fast]") {
-  RunSpec spec = make_j1634();
-  const Json without = run_scenario(spec, {}).result;
+  scenarios::RunSpec spec = make_j1634();
+  const Json without = scenarios::run_scenario(spec, {}).result;
   double all_Wh = 0.0;
   for (const Json& section : without["sections"]) all_Wh += number_of(section, "battery_energy_Wh");
   CHECK(number_of(without, "usable_energy_kWh") == Approx(1e-3 * all_Wh));
@@ -153,7 +156,7 @@ TEST_CASE("without a battery the test takes all of it; with one, its own energy 
   CHECK_FALSE(without.contains("recharge_energy_kWh"));
 
   spec.vehicle->battery = rigs::VehicleBattery{60.0 * kWh, 0.0, 0.8};
-  const Outcome outcome = run_scenario(spec, {});
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   const Json& with = outcome.result;
   CHECK(with["sections"] == without["sections"]);
   CHECK(with["usable_energy_from"] == "battery");
@@ -169,9 +172,9 @@ TEST_CASE("without a battery the test takes all of it; with one, its own energy 
   // An end section of the length that is named empties it.
   REQUIRE(outcome.warnings.size() == 1);
   CHECK(outcome.warnings.front().find("end_min=") != std::string::npos);
-  RunSpec longer = make_j1634({"mid_min=5", fmt::format("end_min={}", number_of(with, "end_needed_min"))});
+  scenarios::RunSpec longer = make_j1634({"mid_min=5", fmt::format("end_min={}", number_of(with, "end_needed_min"))});
   longer.vehicle->battery = spec.vehicle->battery;
-  const Outcome emptied = run_scenario(longer, {});
+  const scenarios::Outcome emptied = scenarios::run_scenario(longer, {});
   all_Wh = 0.0;
   for (const Json& section : emptied.result["sections"]) all_Wh += number_of(section, "battery_energy_Wh");
   CHECK(all_Wh == Approx(60e3).epsilon(0.02));
@@ -179,26 +182,28 @@ TEST_CASE("without a battery the test takes all of it; with one, its own energy 
 }
 
 TEST_CASE("the order of the source has no phase scaling", "[fast]") {
-  const Json result = run_scenario(make_j1634({"variant=source", "mid_min=5", "end_min=5"}), {}).result;
+  const Json result = scenarios::run_scenario(make_j1634({"variant=source", "mid_min=5", "end_min=5"}), {}).result;
   for (const char* key : {"usable_energy_kWh", "economy", "first_city_excess_percent"})
     CHECK_FALSE(result.contains(key));
 }
 
 TEST_CASE("a battery that is empty before the end section is refused with what it would need", "[fast]") {
-  RunSpec spec = make_j1634();
+  scenarios::RunSpec spec = make_j1634();
   spec.vehicle->battery = rigs::VehicleBattery{5.0 * kWh, 0.0, 0.9};
-  CHECK_THROWS_WITH(run_scenario(spec, {}), Catch::Contains("usable_energy_kWh") && Catch::Contains("mid_min") &&
-                                                Catch::Contains("empty before the end section"));
+  CHECK_THROWS_WITH(scenarios::run_scenario(spec, {}), Catch::Contains("usable_energy_kWh") &&
+                                                           Catch::Contains("mid_min") &&
+                                                           Catch::Contains("empty before the end section"));
 }
 
 TEST_CASE("a map that is even is the constant efficiency, in both fidelities", "[fast]") {
   for (const char* fidelity : {"quasi_static", "multibody"}) {
     INFO(fidelity);
     const auto drive = [fidelity](bool with_map) {
-      RunSpec spec = tests::make_spec("drive_cycle", "a50", {"wheels=1", "wheel_of=rear", "cycle=us06"}, fidelity);
+      scenarios::RunSpec spec =
+          tests::make_spec("drive_cycle", "a50", {"wheels=1", "wheel_of=rear", "cycle=us06"}, fidelity);
       spec.vehicle->powertrain.efficiency = 0.8;
       if (with_map) spec.vehicle->powertrain.map = make_even_map(0.8);
-      return number_of(run_scenario(spec, {}).result["sections"][0], "battery_energy_Wh");
+      return number_of(scenarios::run_scenario(spec, {}).result["sections"][0], "battery_energy_Wh");
     };
     CHECK(drive(true) == Approx(drive(false)).epsilon(1e-4));
   }
@@ -207,11 +212,11 @@ TEST_CASE("a map that is even is the constant efficiency, in both fidelities", "
 TEST_CASE("other consumers take their power for as long as a section lasts, and efficiencies act one way each",
           "[fast]") {
   const auto drive = [](double efficiency, double regeneration, double auxiliary_W) {
-    RunSpec spec = make_j1634();
+    scenarios::RunSpec spec = make_j1634();
     spec.vehicle->powertrain.efficiency = efficiency;
     spec.vehicle->powertrain.regeneration_efficiency = regeneration;
     spec.vehicle->powertrain.auxiliary_power_W = auxiliary_W;
-    return run_scenario(spec, {}).result["sections"];
+    return scenarios::run_scenario(spec, {}).result["sections"];
   };
   const Json plain = drive(0.85, 0.0, 0.0);
   const Json consumers = drive(0.85, 0.0, 400.0);
@@ -228,12 +233,12 @@ TEST_CASE("other consumers take their power for as long as a section lasts, and 
 }
 
 TEST_CASE("a drive beyond the map of the powertrain is warned of", "[fast]") {
-  RunSpec spec = tests::make_spec("drive_cycle", "a50", {"cycle=us06"}, "quasi_static");
+  scenarios::RunSpec spec = tests::make_spec("drive_cycle", "a50", {"cycle=us06"}, "quasi_static");
   spec.vehicle->powertrain.map = make_even_map(0.8);
-  CHECK(run_scenario(spec, {}).warnings.empty());
+  CHECK(scenarios::run_scenario(spec, {}).warnings.empty());
   spec.vehicle->powertrain.map->speeds_m_s = {0.0, 10.0, 30.0};
   spec.vehicle->powertrain.map->powers_W = {-20e3, 0.0, 20e3};
-  const std::vector<std::string> warnings = run_scenario(spec, {}).warnings;
+  const std::vector<std::string> warnings = scenarios::run_scenario(spec, {}).warnings;
   REQUIRE(warnings.size() == 2);
   CHECK(warnings[0].find("129.2 km/h") != std::string::npos);
   CHECK(warnings[1].find("20.0 kW") != std::string::npos);
