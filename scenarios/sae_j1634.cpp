@@ -133,7 +133,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   }
   results.total = add_up(results.sections);
   if (!settings.is_source()) {
-    results.economy = evaluate_economy(spec, results.sections, settings.label_factor, outcome);
+    results.economy = evaluate_economy(spec, layout, results.sections, settings.label_factor, outcome);
   }
   warn_of_map(spec, layout, outcome);
   outcome.make_measurement_model = [&spec, used = outcome.settings] { return make_section_energy_model(spec, used); };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -29,6 +30,21 @@ std::vector<EnergySection> list_energies(const std::vector<DriveSection>& sectio
 double sum_battery_J(const std::vector<DriveSection>& sections) {
   return std::accumulate(sections.begin(), sections.end(), 0.0,
                          [](double sum_J, const DriveSection& section) { return sum_J + section.battery_J; });
+}
+
+/// Power of the battery late in the section, at its constant speed.
+double find_steady_battery_W(const RunSpec& spec, const rigs::VehicleLayout& layout,
+                             const sim::Recording<double>& recording, const std::string& section) {
+  constexpr double kLate = 0.75;  // Assumed: of the section, when the tires are warm and the ramp has not begun
+  const auto phase = std::find_if(recording.phases.begin(), recording.phases.end(),
+                                  [&section](const sim::PhaseSpan& span) { return span.name == section; });
+  const std::size_t row = recording.row_at(phase->start_s + kLate * (phase->end_s - phase->start_s));
+  const double speed_m_s = recording.channel(quantities::kSpeed)[row];
+  const double hubs_W = speed_m_s * recording.channel(quantities::kTractionForce)[row] / layout.share;
+  const rigs::VehiclePowertrain& powertrain = spec.vehicle->powertrain;
+  const double for_hubs_W = powertrain.map.has_value() ? models::calc_battery_W(*powertrain.map, speed_m_s, hubs_W)
+                                                       : hubs_W / powertrain.efficiency;
+  return for_hubs_W + powertrain.auxiliary_power_W;
 }
 
 /// Throws InputError where the battery does not last to the end section.
@@ -130,8 +146,8 @@ void EconomyResults::visit_cycles(ResultSheet& visit) const {
         cycles);
 }
 
-EconomyResults evaluate_economy(const RunSpec& spec, const std::vector<DriveSection>& sections, double label_factor,
-                                Outcome& outcome) {
+EconomyResults evaluate_economy(const RunSpec& spec, const rigs::VehicleLayout& layout,
+                                const std::vector<DriveSection>& sections, double label_factor, Outcome& outcome) {
   const rigs::VehicleFile& vehicle = *spec.vehicle;
   const double all_J = sum_battery_J(sections);
   BatteryCharge charge{all_J, std::nullopt};
@@ -140,7 +156,8 @@ EconomyResults evaluate_economy(const RunSpec& spec, const std::vector<DriveSect
     const DriveSection& end = sections.back();
     charge = {vehicle.battery->usable_J, vehicle.battery->calc_recharge_J()};
     require_large_battery(vehicle, charge.usable_J, all_J - end.battery_J);
-    results.end_needed_s = end.duration_s * (1.0 + (charge.usable_J - all_J) / end.battery_J);
+    results.end_needed_s =
+        end.duration_s + (charge.usable_J - all_J) / find_steady_battery_W(spec, layout, outcome.recording, end.name);
     warn_of_end(charge.usable_J, all_J, *results.end_needed_s, outcome);
   }
   const std::vector<DriveSection> city = list_sections(sections, "city");

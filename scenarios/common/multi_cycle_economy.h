@@ -36,7 +36,7 @@ struct EconomyResults {
 /// Phase scaling, ranges and the excess of the first city section. The usable energy is that of the vehicle's battery,
 /// or what all sections took. Warns where the battery is not empty at the end. Throws InputError where the battery is
 /// empty before the last section.
-EconomyResults evaluate_economy(const RunSpec& spec, const std::vector<DriveSection>& sections, double label_factor,
-                                Outcome& outcome);
+EconomyResults evaluate_economy(const RunSpec& spec, const rigs::VehicleLayout& layout,
+                                const std::vector<DriveSection>& sections, double label_factor, Outcome& outcome);
 
 }  // namespace rollrig::scenarios
