@@ -274,6 +274,10 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     outcome.warnings.push_back("the correction to 25 degC holds from 20 to 30 degC only");
   }
   outcome.make_measurement_model = [&spec, settings, cycles] {
+    if (settings.method.value != kTorqueMethod) {
+      throw InputError({"the uncertainty budget is that of the torque method", "settings", 0, "method",
+                        settings.method.value, kTorqueMethod, ""});
+    }
     const auto simulate = [&](double speed_m_s, double pressure_Pa) {
       return simulate_resistance_N(settings, spec, speed_m_s, pressure_Pa);
     };
