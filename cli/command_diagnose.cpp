@@ -8,12 +8,14 @@
 #include "cli/progress.h"
 #include "rollrig/diagnose.h"
 #include "rollrig/loop.h"
+#include "rollrig/machine_pair.h"
 
 namespace rollrig::cli {
 namespace {
 
 struct DiagnoseOptions {
   std::string set;
+  std::string against;
   std::string explain;
   OutputOptions output;
   std::string plan;
@@ -45,7 +47,14 @@ void require_consistent(const DiagnoseOptions& options) {
     throw usage_error("only a loop of tests takes this option", options.test_failed ? "--test-failed" : "--hours", "",
                       "--loop and its folder beside it");
   }
-  options.comparison.check();
+  if (options.against.empty()) {
+    options.comparison.check();  // else the comparison of machines does, which knows more effects
+    return;
+  }
+  if (options.set.empty() || !options.plan.empty() || !options.loop.empty()) {
+    throw usage_error("two machines are compared, and no test is planned for one of them", "--against", options.against,
+                      "the set of each machine, without --plan and --loop");
+  }
 }
 
 /// What the options ask for; `progress` shows how far it is.
@@ -92,8 +101,27 @@ int advance(const DiagnoseOptions& options) {
   return kDone;
 }
 
+/// Two machines.
+int compare_machines(const DiagnoseOptions& options) {
+  for (const std::string& folder : {options.set, options.against}) {
+    if (find_sets(folder).empty()) continue;
+    throw usage_error("two machines are compared by one set each", "--against", folder,
+                      "the folder of one set, without sets below it");
+  }
+  const MeasurementSet a(options.set, options.bad_rows);
+  const MeasurementSet b(options.against, options.bad_rows);
+  Output output(options.output);
+  const PairDiagnosis found = [&] {
+    ProgressLine progress("diagnose", options.output.quiet);
+    return diagnose_pair(a, b, make_options(options, progress));
+  }();
+  output.show(found);
+  return kDone;
+}
+
 int diagnose_command(const DiagnoseOptions& options) {
   require_consistent(options);
+  if (!options.against.empty()) return compare_machines(options);
   if (!options.explain.empty()) {
     std::cout << explain_effect(options.explain);
     return kDone;
@@ -131,6 +159,9 @@ void add_diagnose_command(CLI::App& app, Action& action) {
       app, action, "diagnose", "Why a measurement and the simulation differ: where, by which effect, how much",
       &diagnose_command);
   command->add_option("set", options->set, "Folder of a measurement set, or its set.toml; or a folder of such folders");
+  command->add_option("--against", options->against,
+                      "Set of another machine that tested the same tire: in which effect the two machines differ, by "
+                      "how much their rolling resistance coefficients differ, and what of it remains");
   command->add_option("--explain", options->explain,
                       "Tell of an effect instead: equation, source, priors, what reveals it, what it is confused with, "
                       "which tests separate them; also none, unknown");

@@ -67,6 +67,8 @@ struct Candidate {
 
 struct Study {
   explicit Study(const measurements::MeasurementSet& measured, StudySettings settings = {});
+  /// Of one tire on several machines (PreparedSet).
+  explicit Study(std::vector<measurements::MeasurementSet> measured, StudySettings settings = {});
   Study(const Study&) = delete;
   Study& operator=(const Study&) = delete;
 

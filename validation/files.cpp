@@ -76,7 +76,7 @@ std::string hash_case(const std::string& folder) {
   return hash_files(files);
 }
 
-TruthFile open_truth(const std::string& set, const std::string& hash) {
+TruthFile open_truth(const std::string& set, const std::string& hash, const char* format) {
   const std::string file = (fs::path(set) / "truth.json").string();
   if (!fs::exists(file)) throw InputError({fmt::format("no file '{}'", file), set, 0, "", "", kMade, ""});
   const std::string text = read_text_file(file);
@@ -88,11 +88,11 @@ TruthFile open_truth(const std::string& set, const std::string& hash) {
   }
   try {
     const Json json = parse_json(text, file);
-    if (json.at("format") == kTruthFormat) opened.cases = json.at("sets");
+    if (json.at("format") == format) opened.cases = json.at("sets");
   } catch (const Json::exception&) {  // said below
   }
   if (opened.cases.is_object()) return opened;
-  throw InputError({"not the truth of a validation set", file, 0, "format", "", kTruthFormat, ""});
+  throw InputError({"not the truth of a validation set", file, 0, "format", "", format, ""});
 }
 
 bool lies_within(const std::string& path, const std::string& folder) {

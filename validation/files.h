@@ -12,6 +12,7 @@ namespace rollrig::validation {
 // Formats of the files that the generator and the scoring exchange. They keep their first names: the SHA-256 that were
 // published with the results of a seed (validation/results) cover them.
 constexpr const char* kTruthFormat = "rollrig-blind-bank/1";
+constexpr const char* kPairsTruthFormat = "rollrig-validation-pairs/1";
 constexpr const char* kPlanFormat = "rollrig-blind-plan/1";
 constexpr const char* kUpperBoundFormat = "rollrig-blind-ceiling/1";
 constexpr const char* kLocationsFormat = "rollrig-validation-locations/1";
@@ -44,7 +45,7 @@ struct TruthFile {
 /// Opens the truth.
 /// Errors  InputError: no such file; its SHA-256 is not `hash`, or where that is empty not that of truth.sha256, in
 ///         older sets seal.sha256; not the truth of a validation set
-TruthFile open_truth(const std::string& set, const std::string& hash);
+TruthFile open_truth(const std::string& set, const std::string& hash, const char* format = kTruthFormat);
 
 /// Whether `path` lies in `folder`; neither need be there.
 bool lies_within(const std::string& path, const std::string& folder);

@@ -75,11 +75,11 @@ const RigSensor& find_rig_sensor(const Quantity& channel) {
 }
 
 template <class S>
-std::vector<S> read_channel(const PreparedSet& set, const measurements::MeasuredRun& run,
+std::vector<S> read_channel(const measurements::MeasurementSet& source, const measurements::MeasuredRun& run,
                             const models::Corner<S>& corner, const sim::Recording<S>& recording,
                             const Quantity& channel) {
   const auto read = [&](auto&& get) {
-    return read_instants<S>(set.source(), run, corner, recording, std::forward<decltype(get)>(get));
+    return read_instants<S>(source, run, corner, recording, std::forward<decltype(get)>(get));
   };
   using Instant = models::Instant<S>;
   if (channel == kSurfaceReading) return read([](const Instant& now) { return now.boundary.surface_K; });
@@ -93,16 +93,16 @@ std::vector<S> read_channel(const PreparedSet& set, const measurements::Measured
     const std::vector<double>& ambient_K = run.column(quantities::kAmbient);
     return {ambient_K.begin(), ambient_K.end()};
   }
-  if (channel == set.source().kind->traits.force) {
+  if (channel == source.kind->traits.force) {
     return measurements::read_force(run, corner, recording.channel(channel), channel);
   }
   return recording.channel(channel);
 }
 
-template std::vector<double> read_channel(const PreparedSet&, const measurements::MeasuredRun&,
+template std::vector<double> read_channel(const measurements::MeasurementSet&, const measurements::MeasuredRun&,
                                           const models::Corner<double>&, const sim::Recording<double>&,
                                           const Quantity&);
-template std::vector<Jet> read_channel(const PreparedSet&, const measurements::MeasuredRun&, const models::Corner<Jet>&,
-                                       const sim::Recording<Jet>&, const Quantity&);
+template std::vector<Jet> read_channel(const measurements::MeasurementSet&, const measurements::MeasuredRun&,
+                                       const models::Corner<Jet>&, const sim::Recording<Jet>&, const Quantity&);
 
 }  // namespace rollrig::diagnosis

@@ -28,10 +28,10 @@ const std::vector<RigSensor>& all_rig_sensors();
 const RigSensor& find_rig_sensor(const Quantity& channel);
 
 /// A channel of a run as a sensor would read it, a value a row.
-/// Validity  the force as measurements::read_force() reads it; sensors other than a set's channels: full detail
+/// Validity  the force as measurements::read_force() reads it; sensors other than the channels of `source`: full detail
 /// Checked   tests/diagnosis/next_test_test.cpp
 template <class S>
-std::vector<S> read_channel(const PreparedSet& set, const measurements::MeasuredRun& run,
+std::vector<S> read_channel(const measurements::MeasurementSet& source, const measurements::MeasuredRun& run,
                             const models::Corner<S>& corner, const sim::Recording<S>& recording,
                             const Quantity& channel);
 

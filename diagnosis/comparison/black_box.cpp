@@ -14,7 +14,7 @@ constexpr Eigen::Index kFeatures = 13;
 Eigen::MatrixXd find_features(const PreparedSet& set, const Series& series) {
   const PreparedRun& run = set.runs()[series.run];
   const double start_s = run.measured.time_s.front();
-  const double skim_limit_N = set.kind().skim_limit_N(set.source());
+  const double skim_limit_N = set.kind().skim_limit_N(set.source(run.machine));
   Eigen::MatrixXd features(to_index(series.size()), kFeatures);
   for (std::size_t k = 0; k < series.size(); ++k) {
     const auto mean = [&](const Quantity& input) { return find_mean_input(set, series, k, input); };

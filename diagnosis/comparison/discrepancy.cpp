@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/thresholds.h"
 #include "measurements/sample_selection.h"
 
@@ -115,9 +116,22 @@ Eigen::MatrixXd make_condition_basis(const PreparedSet& set, const Series& serie
   return basis / std::sqrt(kConditions);
 }
 
-/// Sensor noise taken out: columns in noise floors become whitened ones.
-RowMatrix whiten_basis(const Series& series, const Eigen::MatrixXd& columns) {
-  RowMatrix whitened = columns * series.floor;
+/// The unit of what all machines share in a channel, in SI units of one series: as a force at the surface or a
+/// temperature, it is the noise floor of the channel's first series.
+double find_shared_floor(const PreparedSet& set, const Series& series) {
+  const auto force_per_SI = [&](const Series& of) {
+    const measurements::MeasurementSet& source = set.source(set.runs()[of.run].machine);
+    const bool is_force = set.channels()[of.channel] == source.kind->traits.force;
+    return is_force ? set.kind().force_channel(source).newtons_per_SI : 1.0;
+  };
+  const auto first = std::find_if(set.series().begin(), set.series().end(),
+                                  [&](const Series& one) { return one.channel == series.channel; });
+  return first->floor * force_per_SI(*first) / force_per_SI(series);
+}
+
+/// Sensor noise taken out: columns in units of `floor` become whitened ones.
+RowMatrix whiten_basis(const Series& series, const Eigen::MatrixXd& columns, double floor) {
+  RowMatrix whitened = columns * floor;
   series.whitener.apply(whitened.data(), static_cast<std::size_t>(whitened.cols()));
   return whitened;
 }
@@ -133,25 +147,29 @@ Eigen::VectorXd calc_taken(const Discrepancy::Basis& basis, const Amplitudes& am
 Discrepancy::Discrepancy(const PreparedSet& set) : set_(set) {
   for (std::size_t s = 0; s < set.series().size(); ++s) {
     const Series& series = set.series()[s];
-    add_basis(series.channel, {s}, whiten_basis(series, make_time_basis(series)));
+    add_basis(series.channel, {s}, whiten_basis(series, make_time_basis(series), series.floor));
   }
 }
 
-Discrepancy::Discrepancy(const Discrepancy& of_time, const Amplitudes& amplitudes)
+Discrepancy::Discrepancy(const Discrepancy& of_time, const Amplitudes& amplitudes, Owner owner)
     : set_(of_time.set_), below_(&of_time), below_amplitudes_(amplitudes) {
   std::vector<RowMatrix> of_series;
   for (const Series& series : set_.series()) {
-    of_series.push_back(whiten_basis(series, make_condition_basis(set_, series)));
+    const double floor = owner == Owner::kTire ? find_shared_floor(set_, series) : series.floor;
+    of_series.push_back(whiten_basis(series, make_condition_basis(set_, series), floor));
   }
   RowMatrix all(to_index(set_.residual_count()), of_series.front().cols());
   for (std::size_t s = 0; s < of_series.size(); ++s) {
     all.middleRows(to_index(set_.series()[s].first_residual), of_series[s].rows()) = of_series[s];
   }
   below_->whiten(below_amplitudes_, all);
-  for (std::size_t channel = 0; channel < set_.channels().size(); ++channel) {
+  const std::size_t owners = owner == Owner::kTire ? 1 : set_.machine_count();
+  for (std::size_t i = 0; i < owners * set_.channels().size(); ++i) {
+    const std::size_t channel = i / owners;
     Basis rows;
     for (std::size_t s = 0; s < set_.series().size(); ++s) {
-      if (set_.series()[s].channel == channel) rows.series.push_back(s);
+      const bool is_owned = owners == 1 || set_.runs()[set_.series()[s].run].machine == i % owners;
+      if (set_.series()[s].channel == channel && is_owned) rows.series.push_back(s);
     }
     if (!rows.series.empty()) add_basis(channel, rows.series, gather(rows, all));
   }

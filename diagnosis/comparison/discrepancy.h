@@ -17,7 +17,8 @@ using Amplitudes = std::vector<double>;
 /// follows nothing recorded.
 /// Of conditions: the same in all runs, a sum of functions of speed, of load, of speed times load, of the time in the
 /// run, of the time since the load changed, of acceleration, pressure and start temperature: an unknown effect that
-/// repeats. It stands on top of a small discrepancy of time.
+/// repeats. It stands on top of a small discrepancy of time. Of joined sets each machine has its own functions, or all
+/// machines share them: what the one tire does that its law does not say.
 ///
 /// Equation  covariance of the whitened residual  Sigma = 1 + a^2 B B^T, B the whitened basis in noise floors; with
 ///           B = U s V^T: Sigma^-1 = 1 - U diag(a^2 s^2/(1 + a^2 s^2)) U^T, |Sigma| = prod (1 + a^2 s^2)
@@ -26,8 +27,10 @@ class Discrepancy {
  public:
   /// Of time.
   explicit Discrepancy(const PreparedSet& set);
+  /// Whose functions of conditions.
+  enum class Owner { kMachine, kTire };
   /// Of conditions, on top of a discrepancy of time of given size.
-  Discrepancy(const Discrepancy& of_time, const Amplitudes& amplitudes);
+  Discrepancy(const Discrepancy& of_time, const Amplitudes& amplitudes, Owner owner = Owner::kMachine);
 
   /// A part of the data in which the process is one: U and s^2, over the blocks of these series, one after the other.
   struct Basis {

@@ -12,6 +12,8 @@
 namespace rollrig::diagnosis {
 namespace {
 
+/// Assumed: that a tire on several machines does what neither its law nor an effect of the catalog says.
+constexpr double kTireUnknown = 0.1;
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 /// Rms by channel of a difference of block means, in noise floors.
@@ -59,7 +61,11 @@ Amplitudes measure_whole(const Model& model, const Fit& fit) {
 Evaluator::Evaluator(const Study& study)
     : study_(study),
       of_conditions_(study.discrepancy,
-                     Amplitudes(study.set.channels().size(), study.settings.model_error.baseline_floors)) {}
+                     Amplitudes(study.set.channels().size(), study.settings.model_error.baseline_floors)) {
+  if (study.set.machine_count() == 1) return;
+  const Amplitudes below(study.set.channels().size(), study.settings.model_error.baseline_floors);
+  of_tire_.emplace(study.discrepancy, below, Discrepancy::Owner::kTire);
+}
 
 void Evaluator::weigh(Candidate& candidate) const {
   const ModelError& error = study_.settings.model_error;
@@ -90,6 +96,11 @@ void Evaluator::weigh(Candidate& candidate) const {
     logs.push_back(repeated.integrate(distorted).log_value);
   }
   candidate.log_discrepancy = log_sum_exp(logs) - std::log(static_cast<double>(logs.size()));
+  if (!of_tire_.has_value()) return;
+  // The tire may do what its law does not say: on all machines alike, so under every hypothesis.
+  const double log_tire = Evidence(*of_tire_, candidate.fit).integrate(free).log_value;
+  candidate.log_evidence = log_sum_exp({std::log(1.0 - kTireUnknown) + candidate.log_evidence,
+                                        std::log(kTireUnknown) + log_tire});
 }
 
 std::optional<double> Evaluator::weigh_with_loose_laws(const Candidate& candidate,

@@ -26,7 +26,8 @@ class Evaluator {
   Candidate fit_to_end(const Model& model, const Fit& start) const;
 
   const Study& study_;
-  Discrepancy of_conditions_;  // an unknown effect that repeats from run to run
+  Discrepancy of_conditions_;           // an unknown effect that repeats from run to run
+  std::optional<Discrepancy> of_tire_;  // of joined sets: what the tire does on all machines alike
 };
 
 }  // namespace rollrig::diagnosis

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/checks/rig_sensors.h"
 #include "sim/core/parallel.h"
@@ -47,6 +48,7 @@ Model::Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base
       base_(std::move(base)),
       prior_factor_(estimation::calc_prior_factor(base_)),
       hypothesis_(std::move(hypothesis)) {
+  for (const estimation::FreeParameter& base : base_) base_keys_.push_back(read_machine_key(base.key));
   for (std::size_t t = 0; t < hypothesis_.terms.size(); ++t) {
     const auto& [term, sign] = hypothesis_.terms[t];
     for (std::size_t i = 0; i < term->parameters().size(); ++i) {
@@ -93,23 +95,30 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
   const auto scalar = [&](std::size_t i) {
     return make_scalar<S>(parameters[i].value_SI, parameters[i].derivative_SI, i - first_column);
   };
-  models::Context<S> context = models::convert_context<S>(set_.context());
-  for (std::size_t i = 0; i < base_.size(); ++i) {
-    estimation::find_parameter(context, base_[i].key) = make_base<S>(i, parameters, first_column);
-  }
   const PreparedRun& run = set_.runs()[r];
+  models::Context<S> context = models::convert_context<S>(set_.context(run.machine));
+  for (std::size_t i = 0; i < base_.size(); ++i) {
+    if (!base_keys_[i].holds_on(run.machine)) continue;
+    estimation::find_parameter(context, base_keys_[i].key) = make_base<S>(i, parameters, first_column);
+  }
   std::vector<models::ActiveEffect> active;
+  std::vector<std::optional<std::size_t>> places;  // of the terms among the active effects
   for (const SignedTerm& one : hypothesis_.terms) {
+    places.emplace_back();
+    if (!one.term->acts_on(run.machine)) continue;
+    places.back() = active.size();
     active.push_back({&one.term->effect(), one.term->list_known(run)});
     active.back().parameters.resize(one.term->effect().info.parameters.size(), 0.0);
   }
   models::Corner<S> corner(std::move(context), active);
   for (std::size_t i = 0; i < own_.size(); ++i) {
-    corner.effects()[own_[i].term_index].parameters[own_[i].term->known_count() + own_[i].index] = scalar(i);
+    const std::optional<std::size_t> place = places[own_[i].term_index];
+    if (!place.has_value()) continue;
+    corner.effects()[*place].parameters[own_[i].term->known_count() + own_[i].index] = scalar(i);
   }
   sim::Recording<S> recording;
   try {
-    recording = run.resimulation.simulate(set_.source(), run.measured, corner,
+    recording = run.resimulation.simulate(set_.source(run.machine), run.measured, corner,
                                           set_.extra().sensors.empty() ? rigs::Detail::kMeasured : rigs::Detail::kFull);
   } catch (const RunFailure&) {
     return false;
@@ -120,7 +129,7 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
     if (series.run != r) continue;
     const double most = find_most_SI(set_.channels()[series.channel]);
     const std::vector<S> simulated =
-        read_channel(set_, run.measured, corner, recording, set_.channels()[series.channel]);
+        read_channel(set_.source(run.machine), run.measured, corner, recording, set_.channels()[series.channel]);
     for (std::size_t k = 0; k < series.size(); ++k) {
       const S mean = series.mean_over(series.blocks[k], [&](std::size_t row) { return simulated[row]; });
       if (!(std::abs(value_of(mean)) < most)) return false;  // NaN too
@@ -148,6 +157,16 @@ bool Model::simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::Vector
     good[job] = done ? 1 : 0;
   });
   return std::find(good.begin(), good.end(), 0) == good.end();
+}
+
+bool Model::simulate_added(const Term& added, const Eigen::VectorXd& unknowns, Eigen::VectorXd& values) const {
+  std::vector<Parameter> parameters;
+  if (!find_parameters(unknowns, parameters)) return false;
+  for (std::size_t run = 0; run < set_.runs().size(); ++run) {
+    if (!added.acts_on(set_.runs()[run].machine)) continue;
+    if (!simulate_run<double>(run, parameters, 0, values, nullptr)) return false;
+  }
+  return true;
 }
 
 bool Model::simulate_one(std::size_t run, const Eigen::VectorXd& unknowns, Eigen::VectorXd& values) const {

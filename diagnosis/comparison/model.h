@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/comparison/eigen_index.h"
+#include "diagnosis/comparison/machine_key.h"
 #include "diagnosis/comparison/prepared_set.h"
 #include "diagnosis/terms/hypothesis.h"
 #include "estimation/normal_prior.h"
@@ -15,7 +16,8 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 
 /// Unknowns, each standard normal before the measurement: the terms' own parameters, then the base parameters, then
 /// the sensors' offsets (one a session and channel). Base parameters that are correlated share unknowns
-/// (estimation::calc_prior_factor).
+/// (estimation::calc_prior_factor). Of joined sets, a base parameter holds on all machines or on the one that its key
+/// names (machine_key.h).
 class Model {
  public:
   Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base, Hypothesis hypothesis);
@@ -50,6 +52,10 @@ class Model {
   /// shared out over threads. False where a parameter leaves its range or the simulation its domain.
   bool simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& values, RowMatrix* derivatives) const;
 
+  /// The same where `values` are those without `added`, the other unknowns alike: only runs on machines on which it
+  /// acts are simulated. False as simulate().
+  bool simulate_added(const Term& added, const Eigen::VectorXd& unknowns, Eigen::VectorXd& values) const;
+
   /// Block means of one run alone, into its rows; zero in all others. False as simulate().
   bool simulate_one(std::size_t run, const Eigen::VectorXd& unknowns, Eigen::VectorXd& values) const;
 
@@ -76,6 +82,7 @@ class Model {
 
   const PreparedSet& set_;
   std::vector<estimation::FreeParameter> base_;
+  std::vector<MachineKey> base_keys_;
   Eigen::MatrixXd prior_factor_;
   Hypothesis hypothesis_;
   std::vector<OwnParameter> own_;

@@ -46,11 +46,10 @@ void add_standstill_rows(const measurements::MeasuredRun& run, const std::vector
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 }
 
-/// 10 s, and in a long set longer in proportion to the recorded time, so that the number of blocks hardly grows.
-double find_block_length_s(const measurements::MeasurementSet& set) {
+double sum_recorded_s(const measurements::MeasurementSet& set) {
   double recorded_s = 0.0;
   for (const measurements::MeasuredRun& run : set.runs) recorded_s += run.time_s.back() - run.time_s.front();
-  return kShortBlock_s * std::max(1.0, recorded_s / kShortBlocksUpTo_s);
+  return recorded_s;
 }
 
 /// Blocks of samples of one phase. The last sample of a block is less than `length_s` after the first.
@@ -100,32 +99,26 @@ void require_noise(const measurements::MeasurementSet& set, const Quantity& chan
 }
 
 PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings extra)
-    : extra_(std::move(extra)), set_(set), kind_(&kind_of(set)) {
-  std::sort(set_.runs.begin(), set_.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  for (measurements::MeasuredRun& run : set_.runs) kind_->complete(set_, run);
-  block_length_s_ = find_block_length_s(set_);
-  context_ = measurements::make_context(set_);
-  std::vector<Quantity> readable = measurements::measured_channels(*set_.kind);
-  for (const Quantity& channel : extra_.sensors) {
-    if (std::find(readable.begin(), readable.end(), channel) == readable.end()) readable.push_back(channel);
+    : PreparedSet(std::vector<measurements::MeasurementSet>{set}, std::move(extra)) {}
+
+PreparedSet::PreparedSet(std::vector<measurements::MeasurementSet> sets, ExtraReadings extra)
+    : extra_(std::move(extra)), kind_(&kind_of(sets.front())) {
+  for (measurements::MeasurementSet& set : sets) {
+    std::sort(set.runs.begin(), set.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    for (measurements::MeasuredRun& run : set.runs) kind_->complete(set, run);
+    models::Context<double> context = measurements::make_context(set);
+    machines_.push_back({std::move(set), std::move(context)});
   }
-  for (const Quantity& channel : readable) {
-    const bool measured = std::any_of(set_.runs.begin(), set_.runs.end(),
-                                      [&](const measurements::MeasuredRun& run) { return run.has_samples(channel); });
-    if (measured) channels_.push_back(channel);
+  double recorded_s = 0.0;
+  for (const Machine& machine : machines_) recorded_s += sum_recorded_s(machine.set);
+  block_length_s_ = kShortBlock_s * std::max(1.0, recorded_s / kShortBlocksUpTo_s);
+  find_channels();
+  for (std::size_t machine = 0; machine < machines_.size(); ++machine) {
+    for (const measurements::MeasuredRun& run : machines_[machine].set.runs) add_run(machine, run);
   }
-  std::map<std::pair<std::string, std::size_t>, std::size_t> offsets;  // by session and channel
-  for (const measurements::MeasuredRun& run : set_.runs) {
-    runs_.push_back({run, measurements::Resimulation(run, *set_.kind), kind_->find_phases(set_, run)});
-    for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
-      if (!run.has(channels_[channel])) continue;
-      const auto [it, fresh] = offsets.emplace(std::pair(run.session, channel), offsets.size());
-      add_series(runs_.size() - 1, channel, it->second);
-    }
-  }
-  offset_count_ = offsets.size();
   if (series_.empty()) {
-    throw InputError({"nothing was measured in any run", set_.path, 0, "", "", "samples in one measured channel", ""});
+    throw InputError(
+        {"nothing was measured in any run", source().path, 0, "", "", "samples in one measured channel", ""});
   }
   measured_.resize(to_index(residual_count_));
   for (const Series& series : series_) {
@@ -133,15 +126,41 @@ PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings 
   }
 }
 
+/// Channels with a sample in any run.
+void PreparedSet::find_channels() {
+  std::vector<Quantity> readable = measurements::measured_channels(*source().kind);
+  for (const Quantity& channel : extra_.sensors) {
+    if (std::find(readable.begin(), readable.end(), channel) == readable.end()) readable.push_back(channel);
+  }
+  for (const Quantity& channel : readable) {
+    const bool measured = std::any_of(machines_.begin(), machines_.end(), [&](const Machine& machine) {
+      return std::any_of(machine.set.runs.begin(), machine.set.runs.end(),
+                         [&](const measurements::MeasuredRun& run) { return run.has_samples(channel); });
+    });
+    if (measured) channels_.push_back(channel);
+  }
+}
+
+void PreparedSet::add_run(std::size_t machine, const measurements::MeasuredRun& run) {
+  const measurements::MeasurementSet& set = source(machine);
+  runs_.push_back({run, measurements::Resimulation(run, *set.kind), kind_->find_phases(set, run), machine});
+  for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
+    if (!run.has(channels_[channel])) continue;
+    const auto [it, fresh] = offsets_.emplace(std::tuple(machine, run.session, channel), offsets_.size());
+    add_series(runs_.size() - 1, channel, it->second);
+  }
+}
+
 void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t offset) {
   const PreparedRun& run = runs_[r];
   const Quantity& quantity = channels_[channel];
-  const models::SensorParameters& sensor = set_.sensors.at(quantity);
-  require_noise(set_, quantity);
+  const measurements::MeasurementSet& set = source(run.machine);
+  const models::SensorParameters& sensor = set.sensors.at(quantity);
+  require_noise(set, quantity);
   const std::vector<double>& values = run.measured.column(quantity);
   std::vector<std::size_t> rows = kind_->find_compared_rows(run.measured, quantity);
   const bool reads_zero = extra_.force_at_standstill || run.measured.force_at_standstill;
-  if (reads_zero && quantity == set_.kind->traits.force) add_standstill_rows(run.measured, values, rows);
+  if (reads_zero && quantity == set.kind->traits.force) add_standstill_rows(run.measured, values, rows);
   if (rows.empty()) return;
   const std::vector<std::size_t> phases = phase_by_row(run);
   std::vector<Block> blocks = make_blocks(rows, run.measured.time_s, phases, block_length_s_);

@@ -1,6 +1,9 @@
 #pragma once
 /// A measured set made ready for comparison: runs in a fixed order, blocks of samples, whitening, sensor offsets.
 
+#include <map>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "diagnosis/comparison/eigen_index.h"
@@ -50,6 +53,7 @@ struct PreparedRun {
   measurements::MeasuredRun measured;
   measurements::Resimulation resimulation;
   std::vector<RunPhase> phases;
+  std::size_t machine = 0;  // on which it was measured (PreparedSet::source())
 };
 
 /// What a test may read beyond a measurement set's columns.
@@ -69,19 +73,24 @@ void require_noise(const measurements::MeasurementSet& set, const Quantity& chan
 /// recorded hours, blocks are longer in proportion, so that their number hardly grows with the recorded time. The kind
 /// of the set (kinds/measurement_kind.h) decides which rows are compared, what the phases are, and how a run is
 /// simulated.
+/// Several sets of one tire and one kind of machine are joined, each on a machine of its own: their runs come one set
+/// after the other, and no two of them share an offset.
 /// Errors  InputError: no sample in any channel; a sensor without any noise; what the set's kind needs is not there
 class PreparedSet {
  public:
   explicit PreparedSet(const measurements::MeasurementSet& set, ExtraReadings extra = {});
+  explicit PreparedSet(std::vector<measurements::MeasurementSet> sets, ExtraReadings extra = {});
 
-  const measurements::MeasurementSet& source() const { return set_; }
+  std::size_t machine_count() const { return machines_.size(); }
+  /// The set that was measured on a machine.
+  const measurements::MeasurementSet& source(std::size_t machine = 0) const { return machines_[machine].set; }
   const ExtraReadings& extra() const { return extra_; }
   const MeasurementKind& kind() const { return *kind_; }
-  const models::Context<double>& context() const { return context_; }
+  const models::Context<double>& context(std::size_t machine = 0) const { return machines_[machine].context; }
   const std::vector<PreparedRun>& runs() const { return runs_; }
   const std::vector<Quantity>& channels() const { return channels_; }
   const std::vector<Series>& series() const { return series_; }
-  std::size_t offset_count() const { return offset_count_; }
+  std::size_t offset_count() const { return offsets_.size(); }
   std::size_t residual_count() const { return residual_count_; }
   /// 10 s times the recorded hours / 24, and at least 10 s.
   double block_length_s() const { return block_length_s_; }
@@ -89,17 +98,23 @@ class PreparedSet {
   const Eigen::VectorXd& measured() const { return measured_; }
 
  private:
+  struct Machine {
+    measurements::MeasurementSet set;  // with its runs in order
+    models::Context<double> context;
+  };
+
+  void find_channels();
+  void add_run(std::size_t machine, const measurements::MeasuredRun& run);
   void add_series(std::size_t run, std::size_t channel, std::size_t offset);
 
   ExtraReadings extra_;
-  measurements::MeasurementSet set_;  // with its runs in order
+  std::vector<Machine> machines_;
   const MeasurementKind* kind_;
-  models::Context<double> context_;
+  std::map<std::tuple<std::size_t, std::string, std::size_t>, std::size_t> offsets_;  // by machine, session, channel
   std::vector<PreparedRun> runs_;
   std::vector<Quantity> channels_;
   std::vector<Series> series_;
   double block_length_s_ = 0.0;
-  std::size_t offset_count_ = 0;
   std::size_t residual_count_ = 0;
   Eigen::VectorXd measured_;
 };

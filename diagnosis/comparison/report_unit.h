@@ -13,6 +13,6 @@ struct ReportUnit {
   double per_SI = 1.0;
 };
 
-ReportUnit find_report_unit(const PreparedSet& set, const Quantity& channel);
+ReportUnit find_report_unit(const PreparedSet& set, const Quantity& channel, std::size_t machine = 0);
 
 }  // namespace rollrig::diagnosis

@@ -73,8 +73,8 @@ std::optional<Screened> try_shapes(const Study& study, const LinearFit& linear, 
   std::optional<Screened> best;
   bool was_simulated = false;
   for (const Eigen::VectorXd& own : trials) {
-    Eigen::VectorXd simulated;
-    if (!larger.simulate(insert_own(larger, fit, term, own), 1, simulated, nullptr)) continue;
+    Eigen::VectorXd simulated = fit.simulated;
+    if (!larger.simulate_added(term, insert_own(larger, fit, term, own), simulated)) continue;
     was_simulated = true;
     const auto [along, variance] = linear.calc_score(simulated - fit.simulated);
     if (!(variance > 0.0)) continue;

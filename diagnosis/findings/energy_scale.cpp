@@ -10,12 +10,12 @@ EnergyScale::EnergyScale(const PreparedSet& set)
     : set_(set),
       energy_(Eigen::VectorXd::Zero(to_index(set.residual_count()))),
       per_SI_(Eigen::VectorXd::Zero(to_index(set.residual_count()))) {
-  const measurements::MeasurementSet& source = set.source();
-  const Quantity& force = source.kind->traits.force;
-  const double newtons_per_SI = set.kind().force_channel(source).newtons_per_SI;
-  const double skim_limit_N = set.kind().skim_limit_N(source);
+  const Quantity& force = set.source().kind->traits.force;
   for (const Series& series : set.series()) {
     if (!(set.channels()[series.channel] == force)) continue;
+    const measurements::MeasurementSet& source = set.source(set.runs()[series.run].machine);
+    const double newtons_per_SI = set.kind().force_channel(source).newtons_per_SI;
+    const double skim_limit_N = set.kind().skim_limit_N(source);
     const measurements::MeasuredRun& run = set.runs()[series.run].measured;
     const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
     const std::vector<double>* load_N = skim_limit_N > 0.0 ? &run.column(models::quantities::kLoad) : nullptr;

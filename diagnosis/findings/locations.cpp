@@ -259,9 +259,11 @@ Sized limit_to_seen(const PhaseOfSeries& stretch, const Eigen::VectorXd& differe
 
 LocationStretch describe_stretch(const PreparedSet& set, const PhaseOfSeries& stretch) {
   const Quantity& channel = set.channels()[stretch.series->channel];
-  const ReportUnit unit = find_report_unit(set, channel);
-  return {channel.header(), set.runs()[stretch.series->run].measured.id, stretch.name, stretch.start_s,
-          stretch.end_s,    stretch.series->floor * unit.per_SI,         unit.symbol};
+  const PreparedRun& run = set.runs()[stretch.series->run];
+  const ReportUnit unit = find_report_unit(set, channel, run.machine);
+  return {channel.header(), run.measured.id, stretch.name,
+          stretch.start_s,  stretch.end_s,   stretch.series->floor * unit.per_SI,
+          unit.symbol};
 }
 
 Location describe_location(const PreparedSet& set, const PhaseOfSeries& stretch, const Sized& sized) {
@@ -273,7 +275,8 @@ Location describe_location(const PreparedSet& set, const PhaseOfSeries& stretch,
   location.z = sized.z;
   location.start_s = place.start_s;
   location.end_s = place.end_s;
-  location.size = sized.size * find_report_unit(set, set.channels()[stretch.series->channel]).per_SI;
+  const std::size_t machine = set.runs()[stretch.series->run].machine;
+  location.size = sized.size * find_report_unit(set, set.channels()[stretch.series->channel], machine).per_SI;
   location.unit = place.unit;
   return location;
 }

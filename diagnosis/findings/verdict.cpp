@@ -82,8 +82,8 @@ RangeLimit mirror(RangeLimit limit) {
   return limit == RangeLimit::kLower ? RangeLimit::kUpper : RangeLimit::kLower;
 }
 
-/// Own parameters with their intervals, which end where their ranges end. The discrepancy covers a law that is wrong
-/// here and there; that it may be wrong by a share everywhere alike widens the size.
+}  // namespace
+
 std::vector<ParameterEstimate> estimate_parameters(const Study& study, const Candidate& candidate) {
   const Model model = study.make_model(candidate.fit.hypothesis);
   const OwnPosterior posterior = find_own_posterior(study, candidate, model.own_count());
@@ -106,6 +106,8 @@ std::vector<ParameterEstimate> estimate_parameters(const Study& study, const Can
   }
   return estimates;
 }
+
+namespace {
 
 /// Whether the size that each run by itself asks for is one: chi2 of the runs' shifts, in prior units, about their
 /// mean. A run's shift is judged by its own residual along the size's derivative, everything else of the fit held,

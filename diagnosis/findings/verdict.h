@@ -10,6 +10,10 @@
 
 namespace rollrig::diagnosis {
 
+/// Own parameters with their intervals, which end where their ranges end. The discrepancy covers a law that is wrong
+/// here and there; that it may be wrong by a share everywhere alike widens the size.
+std::vector<ParameterEstimate> estimate_parameters(const Study& study, const Candidate& candidate);
+
 /// Inclusion probability of every effect in the comparison, of "none" and of "unknown".
 std::map<std::string, double> find_probabilities(const Study& study, const Comparison& comparison);
 

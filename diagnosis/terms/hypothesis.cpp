@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/terms/machine_terms.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
@@ -13,8 +14,19 @@ namespace {
 
 using models::Prior;
 
+/// Those of all machines, then those of one.
+const std::vector<const Term*>& terms_in_order() {
+  static const std::vector<const Term*> all = [] {
+    std::vector<const Term*> terms = all_terms();
+    terms.insert(terms.end(), all_machine_terms().begin(), all_machine_terms().end());
+    return terms;
+  }();
+  return all;
+}
+
 std::size_t place_of(const Term* term) {
-  return static_cast<std::size_t>(std::find(all_terms().begin(), all_terms().end(), term) - all_terms().begin());
+  const std::vector<const Term*>& all = terms_in_order();
+  return static_cast<std::size_t>(std::find(all.begin(), all.end(), term) - all.begin());
 }
 
 struct NormalForm {

@@ -16,7 +16,7 @@ struct SignedTerm {
   bool operator==(const SignedTerm& other) const { return term == other.term && sign == other.sign; }
 };
 
-/// Terms in the order of all_terms().
+/// Terms in the order of all_terms(), then of all_machine_terms().
 struct Hypothesis {
   std::vector<SignedTerm> terms;
 

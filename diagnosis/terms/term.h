@@ -29,6 +29,8 @@ class Term {
   /// Of a family of unknown effects: what it is like with these own parameters, SI units: "a force of ... that ...".
   /// Nothing for a named effect.
   virtual std::optional<std::string> describe(const std::vector<double>& /*own_SI*/) const { return std::nullopt; }
+  /// Of joined sets: whether it acts in the runs that were measured on a machine (PreparedRun::machine).
+  virtual bool acts_on(std::size_t /*machine*/) const { return true; }
   /// Whether it stands for effects outside the catalog.
   virtual bool is_unknown() const { return false; }
 

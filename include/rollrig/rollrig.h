@@ -11,6 +11,7 @@
 #include "item_campaign.h"
 #include "label.h"
 #include "loop.h"
+#include "machine_pair.h"
 #include "measurement_set.h"
 #include "plan.h"
 #include "progress.h"

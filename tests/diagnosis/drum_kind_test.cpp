@@ -86,7 +86,7 @@ TEST_CASE("a light barrier counts the turns of the drum, not what the record say
                                 {tests::make_active(models::find_effect("speed_record"), {kErrorPercent})});
   const PreparedRun& run = set.runs().front();
   const auto recording = run.resimulation.simulate(set.source(), run.measured, corner, rigs::Detail::kFull);
-  const auto read_m_s = read_channel(set, run.measured, corner, recording, {"speed_reading", "km_h"});
+  const auto read_m_s = read_channel(set.source(), run.measured, corner, recording, {"speed_reading", "km_h"});
   REQUIRE(read_m_s.size() == run.measured.time_s.size());
   const auto [slowest, fastest] = std::minmax_element(read_m_s.begin(), read_m_s.end());
   CHECK(*slowest == Approx(1.04 * kSpeed_m_s));

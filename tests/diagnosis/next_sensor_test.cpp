@@ -70,7 +70,7 @@ TEST_CASE("weights on a lever are read with the gain that a bent sensor has at t
   sim::Recording<double> recording;
   recording.channels.push_back({models::quantities::kDrumTorque});
   recording.values = {{0.0, 0.0, 0.0}};
-  const std::vector<double> read_Nm = read_channel(study.set, run, corner, recording, models::quantities::kDrumTorque);
+  const std::vector<double> read_Nm = read_channel(study.set.source(), run, corner, recording, models::quantities::kDrumTorque);
   CHECK(read_Nm[0] == 0.0);
   CHECK(read_Nm[1] == Approx(61.2 * radius_m));  // 60 N at the surface
   CHECK(read_Nm[2] > 600.0 * radius_m);

@@ -37,8 +37,9 @@ const std::vector<NotRun> kNotRun{
 };
 
 /// Pages whose commands take more than some seconds in all; each has a test case of its own.
-const std::set<std::string> kSlowPages{"README.md", "docs/diagnosis.md", "docs/own_tire_and_set.md", "docs/tutorial.md",
-                                       "docs/validation.md"};
+const std::set<std::string> kSlowPages{
+    "README.md",        "docs/diagnosis.md", "docs/machine_pairs.md", "docs/own_tire_and_set.md",
+    "docs/tutorial.md", "docs/validation.md"};
 
 /// Pages on which every indented line is printed by a command of the page.
 const std::set<std::string> kPagesWithOutput{"docs/convert.md", "docs/how_the_tire_model_works.md",
@@ -164,6 +165,10 @@ TEST_CASE("every command of the tutorial works as printed", "[slow]") { check_co
 
 TEST_CASE("every command of the guide to the diagnosis works as printed", "[slow]") {
   check_commands("docs/diagnosis.md");
+}
+
+TEST_CASE("every command of the page on two machines works as printed", "[slow]") {
+  check_commands("docs/machine_pairs.md");
 }
 
 TEST_CASE("every command of the page on files of one's own works as printed", "[slow]") {

@@ -117,8 +117,9 @@ constexpr int kMostRuns = 6;
 
 struct CampaignOrder {
   std::uint64_t seed = 1;
-  int runs = kMostRuns;  // the first of the campaign
-  std::string run_kind;  // of all runs; empty: as the laboratory has them
+  int runs = kMostRuns;                           // the first of the campaign
+  std::string run_kind;                           // of all runs; empty: as the laboratory has them
+  std::optional<std::uint64_t> habits_seed = {};  // of the laboratory and what it does in each run; none: `seed`
 };
 
 /// The ordered runs of a laboratory on a rig, each from draws of its own. `draw_legs` gives the legs of a run.

@@ -154,7 +154,7 @@ Habits draw_habits(Draws& draws, const Specimen& specimen) {
 
 Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen, const std::vector<CampaignKind>& kinds) {
   constexpr Cooling kCooling{8.0, 14.0, 60.0};  // Assumed
-  Draws draws(order.seed, "campaign");
+  Draws draws(order.habits_seed.value_or(order.seed), "campaign");
   const CampaignKind& kind = draws.pick(kinds);
   const Habits habits = draw_habits(draws, specimen);
   return draw_runs(order, kind, kCooling, specimen,

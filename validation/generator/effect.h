@@ -109,6 +109,8 @@ struct Effect {
   Shape shape;  // everything drawn beside the size
   std::size_t state_count = 0;
   std::function<void(Wall&)> lay_out = [](Wall&) {};
+  /// What the machine really is, where its file says otherwise.
+  std::function<void(Specimen&)> rebuild = [](Specimen&) {};
   std::function<void(const RunStart&, double* state)> start = [](const RunStart&, double*) {};
   /// The speed that there is where a speed is recorded.
   std::function<double(double recorded_m_s)> true_speed_m_s = [](double recorded_m_s) { return recorded_m_s; };
@@ -165,8 +167,9 @@ struct EffectSize {
 
 /// Effects outside of the catalog come in lists. An order draws from one list alone, so that a new list leaves
 /// validation sets of earlier seeds as they are; a list that was drawn from stays as it is.
-enum class OutsideList { kFirst, kSecond };
-constexpr std::array<const char*, 2> kOutsideListNames{"first", "second"};
+/// The last one has effects that only a second machine shows: on one alone they look like the tire's.
+enum class OutsideList { kFirst, kSecond, kBetweenMachines };
+constexpr std::array<const char*, 3> kOutsideListNames{"first", "second", "between_machines"};
 
 /// An effect before its size is known.
 struct EffectKind {

@@ -35,7 +35,11 @@ bool draw_constant_rrc(const SetOrder& order) {
 Laboratory draw_laboratory(const SetOrder& order) {
   Laboratory lab;
   lab.specimen = draw_specimen(order.seed, *order.machine, draw_constant_rrc(order), order.nominal_base);
-  lab.campaign = order.machine->draw_campaign({order.seed, order.runs, order.run_kind}, lab.specimen);
+  if (order.tire_seed.has_value()) {
+    put_on_tire(draw_specimen(*order.tire_seed, *order.machine, lab.specimen.constant_rrc, order.nominal_base),
+                lab.specimen);
+  }
+  lab.campaign = order.machine->draw_campaign({order.seed, order.runs, order.run_kind, order.tire_seed}, lab.specimen);
   lab.sensors = draw_sensors(order.seed, order.machine->channels);
   return lab;
 }
@@ -45,7 +49,8 @@ Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json* desc
   for (std::size_t i = 0; i < order.effects.size(); ++i) {
     const EffectKind& kind = *find_effect_kind(order.effects[i]);
     Draws sizes(order.seed, fmt::format("size/{}", kind.id));
-    Draws shapes(order.seed, fmt::format("shape/{}", kind.id));
+    const bool is_common = i < order.common_effects && order.tire_seed.has_value();
+    Draws shapes(is_common ? *order.tire_seed : order.seed, fmt::format("shape/{}", kind.id));
     const bool has_class = !order.size_classes.empty();
     const double drawn = has_class ? draw_size(kind, order.size_classes[i], sizes) : draw_size(kind, sizes);
     const double size = order.sizes[i].value_or(drawn);

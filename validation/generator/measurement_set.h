@@ -18,8 +18,10 @@ struct SetOrder {
   std::vector<std::string> effects;          // none: the baseline
   std::vector<std::optional<double>> sizes;  // one an effect; none: drawn
   std::uint64_t seed = 1;
-  std::vector<std::string> forms;       // one an effect; none: drawn
-  std::vector<SizeClass> size_classes;  // one an effect; none: sizes from all that are drawn
+  std::size_t common_effects = 0;               // of the first so many the shape is drawn by `tire_seed`
+  std::optional<std::uint64_t> tire_seed = {};  // of the tire, and of what is done with it; none: `seed`
+  std::vector<std::string> forms;               // one an effect; none: drawn
+  std::vector<SizeClass> size_classes;          // one an effect; none: sizes from all that are drawn
   const Machine* machine = all_machines().front();
   std::string run_kind;              // of all runs; empty: as the laboratory has them
   std::optional<bool> constant_rrc;  // of a road set; none: drawn among what the effects allow

@@ -216,10 +216,12 @@ double RunRecord::sample(const Signal& signal, std::size_t row, double shift_s) 
 }
 
 RunRecord record_run(const Specimen& specimen, const Effects& effects, const RunPlan& run) {
-  Collector collected = simulate(specimen, effects, run);
+  Specimen built = specimen;
+  for (const Effect& effect : effects) effect.rebuild(built);
+  Collector collected = simulate(built, effects, run);
   RunRecord record;
   record.specimen = &specimen;
-  record.lever = specimen.machine->find_lever(specimen);
+  record.lever = specimen.machine->find_lever(built);
   fill_given(run, record);
   record.liner = Signal(kStep_s, std::move(collected.liner));
   record.pressure = Signal(kStep_s, std::move(collected.pressure));

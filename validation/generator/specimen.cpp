@@ -109,6 +109,22 @@ Specimen draw_specimen(std::uint64_t seed, const Machine& machine, bool constant
   return specimen;
 }
 
+void put_on_tire(const Specimen& of_tire, Specimen& machine) {
+  for (auto i = static_cast<std::size_t>(Base::kA0); i <= static_cast<std::size_t>(Base::kF); ++i) {
+    machine.base[i] = of_tire.base[i];
+  }
+  machine.outer_diameter_m = of_tire.outer_diameter_m;
+  machine.section_width_m = of_tire.section_width_m;
+  machine.rim_diameter_m = of_tire.rim_diameter_m;
+  machine.tire_mass_kg = of_tire.tire_mass_kg;
+  machine.wheel_mass_kg = of_tire.wheel_mass_kg;
+  machine.spin_inertia_kg_m2 = of_tire.spin_inertia_kg_m2;
+  machine.vertical_N_per_m = of_tire.vertical_N_per_m;
+  machine.reference_load_N = of_tire.reference_load_N;
+  machine.reference_pressure_kPa = of_tire.reference_pressure_kPa;
+  machine.pressure_exponent = of_tire.pressure_exponent;
+}
+
 const char* name_of_law(const Specimen& specimen) { return specimen.constant_rrc ? "constant_rrc" : "combined"; }
 
 std::string write_identified(const Specimen& specimen, Base first, Base last) {

@@ -84,6 +84,9 @@ struct Specimen {
 /// `nominal_base`: the truth is what the files say.
 Specimen draw_specimen(std::uint64_t seed, const Machine& machine, bool constant_rrc, bool nominal_base);
 
+/// Puts the tire of another specimen on a machine: all that its file says of it, and what is true of it.
+void put_on_tire(const Specimen& of_tire, Specimen& machine);
+
 std::string write_tire(const Specimen& specimen);
 /// Keys of numbers with their uncertainties.
 std::string write_identified(const Specimen& specimen, Base first, Base last);

@@ -15,6 +15,8 @@ void add_answer_commands(CLI::App& app, cli::Action& action);
 void add_plan_command(CLI::App& app, cli::Action& action);
 /// Loops of tests, the generator as the rig.
 void add_loop_command(CLI::App& app, cli::Action& action);
+/// make-pairs, run-pairs and score-pairs: two machines that test the same tire.
+void add_pair_commands(CLI::App& app, cli::Action& action);
 /// Where the effects change the readings, for the score.
 void add_locations_command(CLI::App& app, cli::Action& action);
 void add_score_command(CLI::App& app, cli::Action& action);

@@ -48,6 +48,7 @@ int make_and_run(int argc, char** argv) {
   add_plan_command(app, action);
   add_loop_command(app, action);
   add_locations_command(app, action);
+  add_pair_commands(app, action);
   add_score_command(app, action);
   add_release_check_command(app, action);
   return cli::parse_and_act(app, action, argc, argv);

@@ -108,6 +108,13 @@ const std::vector<Expected> kOutsideSecond{
     {"road", "bends", "0", "150", true, false, false},
 };
 
+/// What only a second machine shows.
+const std::vector<Expected> kBetweenMachines{
+    {"drum", "drum_diameter", "0", "2", true, false, false},
+    {"drum", "surface_roughness", "0", "5", true, true, true},
+    {"drum", "ambient_record", "0", "3", true, true, true},
+};
+
 GeneratedSet make(const Expected& expected, const std::string& form, const std::string& size) {
   return make_effect_set(with_form(expected.kind, form), expected.effect, size);
 }
@@ -136,6 +143,10 @@ TEST_CASE("the whole catalog is there, and eight effects outside of it", "[fast]
   }
   for (const Expected& expected : kOutsideSecond) {
     CHECK_THAT(listed, Catch::Contains(std::string(expected.effect) + " (outside of the catalog, second list)"));
+  }
+  for (const Expected& expected : kBetweenMachines) {
+    CHECK_THAT(listed,
+               Catch::Contains(std::string(expected.effect) + " (outside of the catalog, between_machines list)"));
   }
 }
 
@@ -194,6 +205,7 @@ TEST_CASE("an effect of its neutral size does nothing", "[slow]") {
   check_neutral(kRoadEffects);
   check_neutral(kOutside);
   check_neutral(kOutsideSecond);
+  check_neutral(kBetweenMachines);
 }
 
 TEST_CASE("an effect moves its channels and leaves the others alone", "[slow]") {
@@ -201,4 +213,5 @@ TEST_CASE("an effect moves its channels and leaves the others alone", "[slow]") 
   check_moved(kRoadEffects);
   check_moved(kOutside);
   check_moved(kOutsideSecond);
+  check_moved(kBetweenMachines);
 }

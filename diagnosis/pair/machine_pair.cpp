@@ -1,0 +1,211 @@
+#include "diagnosis/pair/machine_pair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "diagnosis/checks/set_checks.h"
+#include "diagnosis/findings/gap.h"
+#include "diagnosis/findings/locations.h"
+#include "diagnosis/pair/find_difference.h"
+#include "diagnosis/terms/machine_terms.h"
+#include "sim/core/error.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using measurements::MeasurementSet;
+using rollrig::PairFindings;
+using rollrig::PairVerdict;
+
+constexpr const char* kAgainst = "--against";
+
+/// Names that differ only in what a person calls them are the same file.
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code code;
+  return a == b || std::filesystem::equivalent(a, b, code);
+}
+
+void require_two_machines(const MeasurementSet& a, const MeasurementSet& b) {
+  if (is_same_file(a.path, b.path)) {
+    throw InputError({"a set is compared with itself", b.path, 0, kAgainst, "", "the set of another machine", ""});
+  }
+  for (const MeasurementSet* set : {&a, &b}) {
+    if (set->rig.has_value()) continue;
+    throw InputError({"two machines are compared, and this set was measured on the road", set->path, 0, "kind",
+                      set->kind->word, "sets of the same kind of rig", ""});
+  }
+  if (a.kind != b.kind) {
+    throw InputError({fmt::format("the machines are of different kinds: '{}' and '{}'", a.kind->word, b.kind->word),
+                      b.path, 0, kAgainst, b.kind->word, fmt::format("a set of kind '{}'", a.kind->word), ""});
+  }
+  if (a.baseline != b.baseline) {
+    throw InputError({"the sets are judged against different laws of the tire", b.path, 0, "baseline", "",
+                      "the same baseline in both sets", ""});
+  }
+}
+
+/// Numbers that a rig may change: conductances of a tire there.
+bool is_of_rig(const std::string& key) {
+  return key == "tire.thermal.z_W_per_K" || key == "tire.thermal.f_W_s_per_m_K";
+}
+
+/// Throws InputError where the tire files differ in a number or its uncertainty.
+void require_one_tire(const MeasurementSet& a, const MeasurementSet& b) {
+  const auto refuse = [&](const std::string& what, const std::string& value, const std::string& allowed) {
+    throw InputError({"the sets are of different tires: " + what, b.path, 0, "tire", value, allowed, ""});
+  };
+  if (a.tire.name != b.tire.name) {
+    refuse(fmt::format("'{}' and '{}'", a.tire.name, b.tire.name), b.tire.name,
+           "the same tire file in both sets: the comparison rests on it");
+  }
+  const models::Context<double> first = measurements::make_context(a);
+  models::Context<double> second = measurements::make_context(b);
+  models::Context<double> of_first = first;
+  estimation::visit_parameters(of_first, [&](const std::string& table, const Field& field, double& value) {
+    const std::string key = table + "." + field.output_key();
+    if (table.rfind("tire.", 0) != 0 || is_of_rig(key)) return;
+    const double other = estimation::find_parameter(second, key);
+    if (value == other || (std::isnan(value) && std::isnan(other))) return;
+    const Unit unit = unit_of_key(field.key);
+    refuse(fmt::format("their files give {} = {:.6g} and {:.6g}", estimation::find_file_key(key), unit.from_si(value),
+                       unit.from_si(other)),
+           b.tire.name, "the same tire file in both sets: the comparison rests on it");
+  });
+}
+
+bool is_same_recording(const measurements::MeasuredRun& a, const measurements::MeasuredRun& b, const Quantity& force) {
+  if (!a.has(force) || !b.has(force) || a.time_s != b.time_s) return false;
+  const std::vector<double>& first = a.column(force);
+  const std::vector<double>& second = b.column(force);
+  return a.has_samples(force) && std::equal(first.begin(), first.end(), second.begin(), [](double x, double y) {
+           return x == y || (std::isnan(x) && std::isnan(y));
+         });
+}
+
+void require_own_recordings(const MeasurementSet& a, const MeasurementSet& b) {
+  for (const measurements::MeasuredRun& one : a.runs) {
+    for (const measurements::MeasuredRun& other : b.runs) {
+      if (!is_same_recording(one, other, a.kind->traits.force)) continue;
+      throw InputError({"both sets hold the same recording, so it is not of two machines", other.file, 0, "run",
+                        other.id, "runs that each machine measured itself", ""});
+    }
+  }
+}
+
+/// Throws InputError for an effect in which machines cannot differ.
+void require_known(const rollrig::DiagnosisOptions& options) {
+  std::vector<std::string> known = term_names();
+  for (const models::Effect* effect : effects_between_machines()) known.push_back(effect->info.id);
+  for (const auto* list : {&options.only, &options.without}) {
+    for (const std::string& name : *list) {
+      if (std::count(known.begin(), known.end(), name) == 0) throw InputError(unknown_name("effect", name, known));
+    }
+  }
+}
+
+MeasurementSet name_runs(MeasurementSet set, std::size_t machine) {
+  for (measurements::MeasuredRun& run : set.runs) run.id = fmt::format("{}: {}", letter_of_machine(machine), run.id);
+  return set;
+}
+
+/// The set without what its checks leave out; what they say goes into the findings.
+MeasurementSet check_machine(const MeasurementSet& set, std::size_t machine, int threads, PairFindings& findings) {
+  const SetChecks checks = check_set(set, threads);
+  for (const std::string& warning : checks.warnings) {
+    findings.warnings.push_back(fmt::format("{}: {}", letter_of_machine(machine), warning));
+  }
+  if (checks.is_implausible()) findings.doubt = fmt::format("{}: {}", letter_of_machine(machine), checks.doubt);
+  return name_runs(leave_out(set, checks.left_out), machine);
+}
+
+/// What acts on both machines, then what acts on one.
+std::vector<const Term*> choose_pair_terms(const MeasurementSet& set, const rollrig::DiagnosisOptions& options) {
+  const models::TireModel& tire = set.tire.model(set.baseline);
+  std::vector<const Term*> terms = choose_terms(set.kind->traits, tire, options.only, options.without);
+  for (const Term* term : choose_machine_terms(set.kind->traits, tire, options.only, options.without)) {
+    terms.push_back(term);
+  }
+  return terms;
+}
+
+/// curvature_exponent is too faint on one drum; on two it is not.
+void add_curvature(const Study& study, const rollrig::DiagnosisOptions& options, std::vector<const Term*>& terms) {
+  const Term* curvature = look_up_term("curvature_exponent");
+  const bool is_wanted =
+      std::count(options.without.begin(), options.without.end(), curvature->name()) == 0 &&
+      (options.only.empty() || std::count(options.only.begin(), options.only.end(), curvature->name()) > 0);
+  const bool is_there = std::count(terms.begin(), terms.end(), curvature) > 0;
+  if (is_wanted && !is_there && !list_differing(study, {curvature->name()}).empty()) terms.push_back(curvature);
+}
+
+/// The first cause on runs that its fit did not see: an objection leaves it the part that it leaves a cause of one set.
+void weigh_on_left_out_runs(const Study& study, const NamedDifference& first, PairFindings& findings) {
+  const Gap gap = find_gap(study, first.lead);
+  findings.left_out_nats = gap.left_out_nats;
+  double kept = 1.0;
+  if (gap.left_out_nats.has_value() && !(*gap.left_out_nats >= thresholds::kConfirmed_nats)) {
+    kept = thresholds::kKeptHardlyLikelier;
+    findings.warnings.push_back("runs left out are hardly likelier with the first cause");
+  }
+  rollrig::MachineDifference& cause = findings.causes.front();
+  const double moved = (1.0 - kept) * cause.probability;
+  cause.probability *= kept;
+  for (rollrig::OnMachine& on : cause.on_machine) {
+    for (double& one : on.probability) one *= kept;
+    findings.probability[on.effect] *= kept;
+  }
+  findings.probability["unknown"] += moved;
+}
+
+}  // namespace
+
+PairFindings diagnose_pair(const MeasurementSet& a, const MeasurementSet& b, const rollrig::DiagnosisOptions& options) {
+  require_known(options);
+  require_two_machines(a, b);
+  require_one_tire(a, b);
+  require_own_recordings(a, b);
+  PairFindings findings;
+  findings.sets = {a.name, b.name};
+  findings.machines = {a.rig->name, b.rig->name};
+  findings.tire = a.tire.name;
+  StudySettings settings;
+  Stages& stages = *settings.stages;
+  stages.report = options.progress;
+  stages.begin("checks", 0.015);
+  const std::vector<MeasurementSet> sets{check_machine(a, 0, options.threads, findings),
+                                         check_machine(b, 1, options.threads, findings)};
+  settings.terms = choose_pair_terms(sets.front(), options);
+  settings.threads = options.threads;
+  // The tire's numbers are common, so that wide priors cost little; narrow ones could be wrong.
+  if (is_tire_origin_open(a) || is_tire_origin_open(b)) settings.belief = TireBelief::kClass;
+  Study study(sets, settings);
+  add_curvature(study, options, study.settings.terms);
+  const Comparison comparison = compare_models(study);
+  findings.probability = find_pair_probabilities(study, comparison);
+  const std::vector<NamedDifference> differences = find_differences(study, comparison);
+  for (const NamedDifference& one : differences) findings.causes.push_back(one.cause);
+  findings.verdict = find_pair_verdict(findings.probability, differences);
+  findings.difference = estimate_rrc_difference(study, study.null);
+  stages.begin("where", 0.8);
+  findings.where = find_locations(study);
+  stages.begin("runs left out", 1.0);
+  if (findings.verdict != PairVerdict::kAgree && !differences.empty()) {
+    findings.remaining = estimate_rrc_difference(study, *differences.front().lead);
+    weigh_on_left_out_runs(study, differences.front(), findings);
+    if (findings.probability["unknown"] >= findings.causes.front().probability) {
+      findings.verdict = PairVerdict::kUnexplained;
+    }
+  }
+  if (!findings.doubt.empty()) {
+    findings.verdict = PairVerdict::kUnexplained;
+    findings.causes.clear();
+    findings.remaining.reset();
+  }
+  return findings;
+}
+
+}  // namespace rollrig::diagnosis

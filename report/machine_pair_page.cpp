@@ -1,0 +1,90 @@
+#include "report/machine_pair_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "diagnosis/output/machine_pair_output.h"
+#include "diagnosis/output/summary.h"
+#include "report/blocks.h"
+#include "sim/core/text.h"
+
+namespace rollrig::report {
+namespace {
+
+constexpr std::size_t kMostBars = 8;
+
+Block make_rrc_bars(const PairFindings& findings) {
+  Json names = Json::array({"no effect"}), values = Json::array(), low = Json::array(), high = Json::array();
+  const auto add = [&](const RrcEstimate& estimate) {
+    values.push_back(rounded(estimate.value_N_per_kN));
+    low.push_back(rounded(estimate.low_95_N_per_kN));
+    high.push_back(rounded(estimate.high_95_N_per_kN));
+  };
+  add(findings.difference);
+  if (findings.remaining.has_value()) {
+    names.push_back("with the first cause");
+    add(*findings.remaining);
+  }
+  return make_bars({"RRc on A less that on B", "N/kN"}, names,
+                   {{{"name", "difference, 95 % interval"}, {"values", values}, {"low", low}, {"high", high}}});
+}
+
+/// The likeliest entries of the probabilities.
+Block make_probability_bars(const PairFindings& findings) {
+  std::vector<std::pair<std::string, double>> sorted(findings.probability.begin(), findings.probability.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  sorted.resize(std::min(sorted.size(), kMostBars));
+  Json names = Json::array(), values = Json::array();
+  for (const auto& [name, probability] : sorted) {
+    names.push_back(name);
+    values.push_back(rounded(100.0 * probability));
+  }
+  return make_bars({"Probability", "%", true}, names, {{{"name", "probability"}, {"values", values}}},
+                   "agree: nothing makes the machines differ. unknown: something outside the catalog.");
+}
+
+Block make_parameter_table(const MachineDifference& cause) {
+  Table table{"", {"parameter", "value", "95 % interval", "unit"}, {}};
+  for (const ParameterEstimate& one : cause.parameters) {
+    table.rows.push_back({one.name, fmt::format("{:.3g}", one.value),
+                          fmt::format("{:.3g} to {:.3g}", one.low_95, one.high_95), one.unit});
+  }
+  return make_table(table);
+}
+
+Block make_place_table(const PairFindings& findings) {
+  Table table{"", {"channel", "run", "phase", "measured less simulated", "unit", "share, %"}, {}};
+  for (const Location& at : findings.where) {
+    table.rows.push_back({plain_name(at.channel), at.run, at.phase, fmt::format("{:+.2g}", at.size), at.unit,
+                          fmt::format("{:.0f}", at.share_percent)});
+  }
+  return make_table(table);
+}
+
+}  // namespace
+
+Page make_machine_pair_page(const PairFindings& findings) {
+  Page page{"diagnose", "Two machines, tire " + findings.tire,
+            fmt::format("A: {} ({}), B: {} ({})", findings.machines[0], findings.sets[0], findings.machines[1],
+                        findings.sets[1])};
+  Section verdict{"Verdict"};
+  const char* tone = findings.verdict == PairVerdict::kUnexplained ? "bad" : "good";
+  verdict.blocks.push_back(make_lead(tone, capitalized(diagnosis::describe_pair_verdict(findings)) + "."));
+  if (!findings.warnings.empty()) verdict.blocks.push_back(make_warnings(findings.warnings));
+  page.add(std::move(verdict));
+  Section rrc{"Rolling resistance coefficient", "By how much the machines differ, and what remains"};
+  rrc.blocks.push_back(make_rrc_bars(findings));
+  page.add(std::move(rrc));
+  Section causes{"Effects in which they may differ"};
+  if (!findings.causes.empty()) causes.blocks.push_back(make_table(diagnosis::make_difference_table(findings)));
+  causes.blocks.push_back(make_probability_bars(findings));
+  if (!findings.causes.empty()) causes.blocks.push_back(make_parameter_table(findings.causes.front()));
+  page.add(std::move(causes));
+  if (!findings.where.empty()) {
+    page.add({"Where", "Against the simulation of the same tire on both machines", {make_place_table(findings)}});
+  }
+  return page;
+}
+
+}  // namespace rollrig::report
