@@ -29,8 +29,8 @@ struct SetChecks {
 /// (still_inputs.h), or if a channel of a run lies far outside what uncertain parameters and effects of the catalog can
 /// make (plausibility.h).
 /// Validity  a wrong tire of the same class is warned of at most: its loss lies within what an effect can make
-/// Errors    InputError: nothing measured; a sensor with less noise than any has (find_least_noise); every sensor stuck;
-///           a run that cannot be simulated
+/// Errors    InputError: nothing measured; a sensor without noise, or with less than any has (find_least_noise); every
+///           sensor stuck; a run that cannot be simulated
 /// Checked   tests/diagnosis/set_checks_test.cpp
 SetChecks check_set(const measurements::MeasurementSet& set, int threads = 0);
 
