@@ -116,6 +116,7 @@ void add_run_options(CLI::App& command, RunInput& input);
 /// Below `fit`.
 void add_fit_road_load(CLI::App& fit, Action& action);
 void add_fit_rolling_laws(CLI::App& fit, Action& action);
+void add_fit_default_road_load(CLI::App& fit, Action& action);
 void add_diagnose_command(CLI::App& app, Action& action);
 void add_plan_command(CLI::App& app, Action& action);
 void add_import_command(CLI::App& app, Action& action);

@@ -63,6 +63,7 @@ void add_fit_command(CLI::App& app, Action& action) {
       &fit_tire_command);
   add_fit_drum_coastdown(*command, action);
   add_fit_rolling_laws(*command, action);
+  add_fit_default_road_load(*command, action);
   tire->add_option("set", options->set, "Folder of a measurement set, or its set.toml")->required();
   tire->add_option("--name", options->fit.name, "Name of the fitted tire [<tire>_fit]");
   options->output.add_to(*tire, "File for fit.json, - for standard output", "Folder for the tire file and fit.json");

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/algorithm/string/split.hpp>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -10,6 +12,7 @@
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "rollrig/fit.h"
+#include "rollrig/road_load.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
 
@@ -20,6 +23,9 @@ constexpr double kPerKmh = 1.0 / 3.6;
 constexpr const char* kKeys[]{"A_N", "B_N_per_km_h", "C_N_per_km_h2"};  // whose units coefficients have
 constexpr const char* kNames[]{"A", "B", "C", "f0", "f1", "f2"};        // in N and km/h
 constexpr const char* kNamesLbf[]{"A_lbf", "B_lbf", "C_lbf"};           // in lbf and mph
+
+constexpr const char* kOwnMethod = "least-squares";
+constexpr const char* kMethods[]{"wltp", "j2263", "j1263", "torque-meter"};  // as RoadLoadProcedureKind
 
 struct FitRoadLoadOptions {
   std::string csv;
@@ -36,8 +42,12 @@ struct FitRoadLoadOptions {
   double speed_from_km_h = 15.0;
   double bin_width_km_h = 5.0;
   double reference_temperature_degC = 20.0;
-  double reference_pressure_kPa = 98.21;
+  std::optional<double> reference_pressure_kPa;
   double rolling_fall_per_K = 8.6e-3;
+  std::string method = kOwnMethod;
+  std::optional<double> corrected_mass_kg;
+  std::optional<double> wheel_radius_m;
+  std::optional<int> yaw_degree;
   bool per_mass = false;
   BadRows bad_rows = BadRows::kRefuse;
   UncertaintyOptions uncertainty;
@@ -142,7 +152,7 @@ RoadLoadFitOptions make_fit_options(const FitRoadLoadOptions& options) {
   set_mass(options, to);
   to.drag_area_m2 = options.drag_area_m2;
   to.reference_temperature_K = options.reference_temperature_degC + kZeroCelsius_K;
-  to.reference_pressure_Pa = 1e3 * options.reference_pressure_kPa;
+  if (options.reference_pressure_kPa.has_value()) to.reference_pressure_Pa = 1e3 * *options.reference_pressure_kPa;
   to.rolling_fall_per_K = options.rolling_fall_per_K;
   to.speed_from_m_s = kPerKmh * options.speed_from_km_h;
   if (options.speed_to_km_h.has_value()) to.speed_to_m_s = kPerKmh * *options.speed_to_km_h;
@@ -158,7 +168,61 @@ RoadLoadFitOptions make_fit_options(const FitRoadLoadOptions& options) {
   return to;
 }
 
+/// Refuses what another method has options for.
+void require_options_of(bool procedure, const FitRoadLoadOptions& options) {
+  const auto refuse = [&options](bool given, const char* option, const char* allowed) {
+    if (given) {
+      throw usage_error(fmt::format("{} has no meaning with --method {}", option, options.method), option, "", allowed);
+    }
+  };
+  if (!procedure) {
+    constexpr const char* kOfProcedures = "--method wltp, j2263, j1263 or torque-meter beside it";
+    refuse(options.corrected_mass_kg.has_value(), "--corrected-mass", kOfProcedures);
+    refuse(options.wheel_radius_m.has_value(), "--wheel-radius", "--method torque-meter beside it");
+    refuse(options.yaw_degree.has_value(), "--yaw-degree", "--method j2263 beside it");
+    return;
+  }
+  constexpr const char* kOwnAlone = "the method least-squares, which has it";
+  refuse(options.per_mass, "--per-mass", kOwnAlone);
+  refuse(options.drag_area_m2.has_value(), "--drag-area", kOwnAlone);
+  refuse(!options.bounds.empty(), "--bounds", kOwnAlone);
+  refuse(!options.target.empty(), "--target", kOwnAlone);
+  refuse(options.bin_width_km_h != FitRoadLoadOptions().bin_width_km_h, "--bin-width", kOwnAlone);
+  refuse(options.yaw_degree.has_value() && options.method != "j2263", "--yaw-degree", "--method j2263 beside it");
+  refuse(options.wheel_radius_m.has_value() && options.method != "torque-meter", "--wheel-radius",
+         "--method torque-meter beside it");
+}
+
+RoadLoadProcedureOptions make_procedure_options(const FitRoadLoadOptions& options, std::size_t kind) {
+  RoadLoadFitOptions masses;
+  set_mass(options, masses);
+  RoadLoadProcedureOptions to;
+  to.kind = static_cast<RoadLoadProcedureKind>(kind);
+  to.mass_kg = masses.mass_kg;
+  to.rotating_mass_kg = masses.rotating_mass_kg;
+  to.corrected_to_mass_kg = options.corrected_mass_kg;
+  to.reference_temperature_K = options.reference_temperature_degC + kZeroCelsius_K;
+  if (options.reference_pressure_kPa.has_value()) to.reference_pressure_Pa = 1e3 * *options.reference_pressure_kPa;
+  to.rolling_fall_per_K = options.rolling_fall_per_K;
+  to.speed_from_m_s = kPerKmh * options.speed_from_km_h;
+  if (options.speed_to_km_h.has_value()) to.speed_to_m_s = kPerKmh * *options.speed_to_km_h;
+  if (options.yaw_degree.has_value()) to.yaw_degree = *options.yaw_degree;
+  to.wheel_radius_m = options.wheel_radius_m;
+  to.leave_out = options.leave_out;
+  return to;
+}
+
 int fit_road_load_command(const FitRoadLoadOptions& options) {
+  const auto method = std::find(std::begin(kMethods), std::end(kMethods), options.method);
+  const bool procedure = method != std::end(kMethods);
+  require_options_of(procedure, options);
+  if (procedure) {
+    const auto kind = static_cast<std::size_t>(method - std::begin(kMethods));
+    const RoadLoadProcedureOptions how = make_procedure_options(options, kind);
+    Output output(options.output);
+    output.show(evaluate_road_load(options.csv, how, options.sessions, options.bad_rows));
+    return kDone;
+  }
   const RoadLoadFitOptions how = make_fit_options(options);
   Output output(options.output);
   UncertaintyOptions uncertainty = options.uncertainty;
@@ -168,6 +232,21 @@ int fit_road_load_command(const FitRoadLoadOptions& options) {
     return fit_road_load(options.csv, how, options.sessions, options.bad_rows, uncertainty, progress.callback());
   }();
   output.show(fit);
+  return kDone;
+}
+
+struct DefaultRoadLoadCommandOptions {
+  DefaultRoadLoadOptions load;
+  OutputOptions output;
+};
+
+int default_road_load_command(const DefaultRoadLoadCommandOptions& options) {
+  if (!options.load.tire_class.empty() && options.load.rrc_N_per_kN <= 0.0) {
+    throw usage_error("a class of tires has several classes of rolling resistance", "--tire-class",
+                      options.load.tire_class, "--rrc <N/kN> beside it");
+  }
+  Output output(options.output);
+  output.show(calc_default_road_load(options.load));
   return kDone;
 }
 
@@ -182,10 +261,30 @@ void add_vehicle_options(CLI::App& command, FitRoadLoadOptions& options) {
       ->check(CLI::Range(0.01, 1000.0));
 }
 
+void add_procedure_options(CLI::App& command, FitRoadLoadOptions& options) {
+  command
+      .add_option("--method", options.method,
+                  "least-squares, or by a procedure: wltp (coastdown times), j2263 (traces with anemometer), j1263 "
+                  "(mean wind), torque-meter [least-squares]")
+      ->check(CLI::IsMember({kOwnMethod, kMethods[0], kMethods[1], kMethods[2], kMethods[3]}));
+  command
+      .add_option("--corrected-mass", options.corrected_mass_kg,
+                  "Test mass TM to which a procedure corrects f0, kg [--mass]")
+      ->check(CLI::Range(1.0, 1e6));
+  command
+      .add_option("--wheel-radius", options.wheel_radius_m,
+                  "Dynamic radius of the torque-meter method, m [from the column wheel_speed_Hz]")
+      ->check(CLI::Range(0.1, 2.0));
+  command.add_option("--yaw-degree", options.yaw_degree, "Of the drag area of j2263 by yaw angle [2]")
+      ->check(CLI::Range(0, 4));
+}
+
 void add_method_options(CLI::App& command, FitRoadLoadOptions& options) {
   command.add_option("--reference-temperature", options.reference_temperature_degC, "degC [20]")
       ->check(CLI::Range(-50.0, 60.0));
-  command.add_option("--reference-pressure", options.reference_pressure_kPa, "Sets the air density, kPa [98.21]")
+  command
+      .add_option("--reference-pressure", options.reference_pressure_kPa,
+                  "Sets the air density, kPa [98.21; 100 of WLTP]")
       ->check(CLI::Range(50.0, 110.0));
   command
       .add_option("--rolling-coefficient-temperature", options.rolling_fall_per_K,
@@ -214,13 +313,32 @@ void add_fit_road_load(CLI::App& fit, Action& action) {
                    "Speed traces, times through speed bins, or what rollrig run coastdown --out wrote")
       ->required();
   add_vehicle_options(*command, *options);
+  add_procedure_options(*command, *options);
   add_method_options(*command, *options);
   options->output.add_to(*command, "File for road_load.json, - for standard output",
-                         "Folder for road_load.json and residuals.csv");
+                         "Folder for road_load.json and residuals.csv (points.csv)");
   options->output.add_report_to(*command);
   add_uncertainty_options(*command, options->uncertainty);
   command->add_option("--seed", options->uncertainty.seed, "Seed of the Monte Carlo trials [1]");
   add_skip_bad_rows(*command, options->bad_rows);
+}
+
+void add_fit_default_road_load(CLI::App& fit, Action& action) {
+  const auto [command, options] = add_command<DefaultRoadLoadCommandOptions>(
+      fit, action, "default-road-load", "Default road load of the WLTP, without a measurement",
+      &default_road_load_command);
+  command->add_option("--mass", options->load.mass_kg, "Test mass, kg")->required()->check(CLI::Range(1.0, 1e6));
+  command->add_option("--width", options->load.width_m, "Width of the vehicle, m")
+      ->required()
+      ->check(CLI::Range(0.5, 5.0));
+  command->add_option("--height", options->load.height_m, "Height of the vehicle, m")
+      ->required()
+      ->check(CLI::Range(0.5, 5.0));
+  CLI::Option* tire_class = command->add_option("--tire-class", options->load.tire_class, "C1, C2 or C3 [none]");
+  command->add_option("--rrc", options->load.rrc_N_per_kN, "Rolling resistance of that tire, for its class, N/kN")
+      ->needs(tire_class)
+      ->check(CLI::Range(1.0, 30.0));
+  options->output.add_to(*command, "File for road_load.json, - for standard output", "Folder for road_load.json");
 }
 
 }  // namespace rollrig::cli

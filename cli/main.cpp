@@ -44,6 +44,10 @@ void add_examples(const CLI::App& app) {
        "    --points 1000 --fidelity quasi_static\n"
        "  rollrig campaign run sums\n"
        "  rollrig campaign export sums --csv sums.csv\n"},
+      {"fit",
+       "  rollrig fit road-load coastdowns.csv --mass 2203\n"
+       "  rollrig fit road-load coastdowns.csv --mass 2203 --method wltp\n"
+       "  rollrig fit default-road-load --mass 1500 --width 1.8 --height 1.5\n"},
       {"regress", "  rollrig regress runs\n"},
       {"validate", "  rollrig validate campaign\n"},
       {"describe",

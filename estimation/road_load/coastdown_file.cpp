@@ -16,9 +16,9 @@
 namespace rollrig::estimation {
 namespace {
 
-const std::vector<std::string> kTraceColumns{"time_s", "speed_km_h", "run", "session", "heading"};
-const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh",   "dt_s",   "run",         "use",       "heading",
-                                           "session",  "start_time", "dist_m", "run_total_s", "run_dist_m"};
+const std::vector<std::string> kTraceColumns{"time_s", "speed_km_h", "run", "session", "heading", "vehicle"};
+const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh",   "dt_s",   "run",         "use",        "heading",
+                                           "session",  "start_time", "dist_m", "run_total_s", "run_dist_m", "vehicle"};
 constexpr double kPerKmh = 1.0 / 3.6;  // "kmh" of the bins' columns is not a suffix that unit_of_key knows
 
 std::vector<std::string> add_condition_columns(std::vector<std::string> columns) {
@@ -269,6 +269,7 @@ CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows) {
   CheckedRows rows(path);
   const CsvTable& table = rows.table();
   if (table.has("phase")) return read_coastdown_recording(path, bad_rows);
+  require_one_vehicle(table);
   CoastdownFile file;
   file.path = path;
   file.is_trace = table.has("time_s") || table.has("speed_km_h");

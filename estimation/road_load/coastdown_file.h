@@ -24,6 +24,8 @@ struct CoastdownConditions {
   std::vector<double> wind_m_s;       // along the road, positive against the + heading
   std::vector<double> crosswind_m_s;  // across the road
   std::vector<double> slope;          // rise over run, positive uphill in the + heading
+  std::vector<double> air_speed_m_s;  // at the vehicle
+  std::vector<double> yaw_rad;        // of the air at the vehicle
 };
 
 /// One coastdown. Either the trace or the bins are filled.

@@ -24,7 +24,9 @@ const std::vector<ConditionColumn> kConditionColumns{
     {{"ambient_pressure_kPa", between(50.0, 110.0), ""}, &CoastdownConditions::ambient_pressure_Pa},
     {{"wind_m_s", between(-40.0, 40.0), ""}, &CoastdownConditions::wind_m_s},
     {{"crosswind_m_s", between(-40.0, 40.0), ""}, &CoastdownConditions::crosswind_m_s},
-    {{"slope", between(-0.2, 0.2), ""}, &CoastdownConditions::slope}};
+    {{"slope", between(-0.2, 0.2), ""}, &CoastdownConditions::slope},
+    {{"air_speed_km_h", between(0.0, 500.0), ""}, &CoastdownConditions::air_speed_m_s},
+    {{"yaw_deg", between(-90.0, 90.0), ""}, &CoastdownConditions::yaw_rad}};
 
 std::vector<std::string> read_sessions(const CsvTable& table) {
   for (const char* column : {"session", "file", "test_date"}) {
@@ -91,6 +93,15 @@ void add_conditions(const CoastdownConditions& of_rows, std::size_t row, Coastdo
 
 std::vector<std::string> text_or_empty(const CsvTable& table, const std::string& column) {
   return table.has(column) ? table.text(column) : std::vector<std::string>(table.row_count());
+}
+
+void require_one_vehicle(const CsvTable& table) {
+  const std::vector<std::string> names = text_or_empty(table, "vehicle");
+  for (std::size_t row = 1; row < names.size(); ++row) {
+    if (names[row] == names.front()) continue;
+    throw table.cell_error(row, "vehicle", fmt::format("another vehicle than '{}' before it", names.front()),
+                           "runs of one vehicle: a road load is that of one");
+  }
 }
 
 std::vector<RowsOfRun> sort_into_runs(CheckedRows& rows, const std::vector<bool>& begins,

@@ -18,6 +18,9 @@ void add_conditions(const CoastdownConditions& of_rows, std::size_t row, Coastdo
 /// Cells of an optional column; empty strings where it is absent.
 std::vector<std::string> text_or_empty(const CsvTable& table, const std::string& column);
 
+/// Throws InputError where an optional column `vehicle` names more than one.
+void require_one_vehicle(const CsvTable& table);
+
 /// The rows of one run that can be used, in the order of the file.
 struct RowsOfRun {
   std::string id;

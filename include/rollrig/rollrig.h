@@ -17,6 +17,7 @@
 #include "progress.h"
 #include "regress.h"
 #include "result.h"
+#include "road_load.h"
 #include "rolling_law.h"
 #include "run.h"
 #include "scaffold.h"

@@ -1,0 +1,167 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "estimation/road_load/checked_road_load.h"
+#include "estimation/road_load/default_road_load.h"
+#include "estimation/road_load/road_load_procedure.h"
+#include "estimation/road_load/road_load_report.h"
+#include "report/blocks.h"
+#include "report/road_load_procedure_page.h"
+#include "rollrig/road_load.h"
+#include "sim/core/text.h"
+#include "sim/core/units.h"
+
+namespace rollrig {
+namespace {
+
+using estimation::CoastdownFile;
+using estimation::RoadLoadProcedure;
+
+/// Runs of the wanted sessions without those that are left out.
+void select_coastdowns(const std::vector<std::string>& sessions, const std::vector<std::string>& leave_out,
+                       CoastdownFile& file) {
+  auto& runs = file.data.runs;
+  for (const std::string& session : sessions) {
+    const bool known = std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return run.session == session; });
+    if (known) continue;
+    std::vector<std::string> names;
+    for (const auto& run : runs) names.push_back(run.session);
+    InputProblem problem = unknown_name("session", session, names);
+    problem.file = "command line";
+    problem.key = "--session";
+    throw InputError(problem);
+  }
+  for (const std::string& name : leave_out) {
+    const auto is_it = [&name](const auto& run) { return name == run.id || name == run.session + "/" + run.id; };
+    if (std::any_of(runs.begin(), runs.end(), is_it)) continue;
+    std::vector<std::string> names;
+    for (const auto& run : runs) names.push_back(run.id);
+    InputProblem problem = unknown_name("run", name, names);
+    problem.file = "command line";
+    problem.key = "--leave-out";
+    throw InputError(problem);
+  }
+  const auto is_out = [&](const auto& run) {
+    const bool other = !sessions.empty() && std::find(sessions.begin(), sessions.end(), run.session) == sessions.end();
+    return other || std::any_of(leave_out.begin(), leave_out.end(), [&run](const std::string& name) {
+             return name == run.id || name == run.session + "/" + run.id;
+           });
+  };
+  runs.erase(std::remove_if(runs.begin(), runs.end(), is_out), runs.end());
+}
+
+/// What speaks against runs: the same recording twice, labels, odd runs.
+std::vector<std::string> doubt_runs(const RoadLoadProcedureOptions& options, CoastdownFile& file) {
+  RoadLoadFitOptions how;
+  how.mass_kg = options.mass_kg;
+  how.rotating_mass_kg = options.rotating_mass_kg;
+  how.speed_from_m_s = options.speed_from_m_s;
+  how.speed_to_m_s = options.speed_to_m_s;
+  std::vector<std::string> texts;
+  for (const estimation::RunDoubt& doubt : estimation::check_coastdowns(file.data, how).doubts) {
+    texts.push_back(doubt.text);
+  }
+  return texts;
+}
+
+RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedureOptions options,
+                                      const std::vector<std::string>& sessions, BadRows bad_rows) {
+  CoastdownFile file = estimation::read_coastdowns(path, bad_rows);
+  select_coastdowns(sessions, options.leave_out, file);
+  if (file.data.runs.empty()) {
+    throw InputError({"no run is left", "command line", 0, "--leave-out", "", "runs that stay", ""});
+  }
+  if (!options.mass_kg.has_value() && file.vehicle.has_value()) {
+    options.mass_kg = file.vehicle->mass_kg;
+    options.rotating_mass_kg = file.vehicle->rotating_mass_kg;
+  }
+  const std::vector<std::string> doubts = doubt_runs(options, file);
+  RoadLoadProcedure procedure = options.kind == RoadLoadProcedureKind::kWltp
+                                    ? estimation::evaluate_wltp_coastdowns(file, options)
+                                    : estimation::evaluate_traces(file, options);
+  procedure.warnings.insert(procedure.warnings.begin(), doubts.begin(), doubts.end());
+  if (file.rows_off > 0) procedure.warnings.push_back(format_count(file.rows_off, "row") + " left out: use = Off");
+  if (!file.left_out.problems.empty()) {
+    procedure.warnings.push_back(measurements::describe_left_out(file.left_out, "", file.path, "field"));
+  }
+  return procedure;
+}
+
+}  // namespace
+
+RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOptions& options,
+                            const std::vector<std::string>& sessions, BadRows bad_rows) {
+  const auto procedure = std::make_shared<RoadLoadProcedure>();
+  try {
+    *procedure = options.kind == RoadLoadProcedureKind::kTorqueMeter
+                     ? estimation::evaluate_torque_meter(file, options, sessions, bad_rows)
+                     : evaluate_coastdowns(file, options, sessions, bad_rows);
+  } catch (const InputError& error) {
+    InputProblem problem = error.problem();
+    if (problem.file.empty()) problem.file = file;
+    throw InputError(problem);
+  }
+  RoadLoad result;
+  result.coefficients = report::list_procedure_coefficients(*procedure);
+  result.warnings = procedure->warnings;
+  const std::string source = fmt::format("{}, {}", file, format_count(procedure->run_names.size(), "run"));
+  result.text = wrap(fmt::format("fit road-load   {}   {}", source, report::title_of(procedure->kind)), 0) +
+                format_tables(report::make_procedure_tables(*procedure)) + format_warnings(procedure->warnings);
+  result.json = to_text(report::make_procedure_json(*procedure));
+  result.make_files = [procedure, json = result.json] {
+    return FolderFiles{{"road_load.json", json}, {"points.csv", report::write_procedure_points(*procedure)}};
+  };
+  result.make_page = [procedure, source] { return report::make_html(report::make_procedure_page(*procedure, source)); };
+  return result;
+}
+
+RoadLoad calc_default_road_load(const DefaultRoadLoadOptions& options) {
+  const Eigen::Vector3d load = estimation::calc_default_road_load(options.mass_kg, options.width_m, options.height_m);
+  constexpr const char* kKeys[] = {"f0_N", "f1_N_per_km_h", "f2_N_per_km_h2"};
+  constexpr const char* kUnits[] = {"N", "N/(km/h)", "N/(km/h)2"};
+  RoadLoad result;
+  Json json = {{"format", "rollrig-default-road-load/1"},
+               {"mass_kg", options.mass_kg},
+               {"width_m", options.width_m},
+               {"height_m", options.height_m}};
+  Table table{"Default road load of the WLTP", {"", "value", "unit", "lbf, mph"}, {}};
+  for (int i = 0; i < 3; ++i) {
+    const double value = estimation::road_load_in_file_unit(i, load(i));
+    const double lbf = estimation::road_load_in_lbf_mph(i, load(i));
+    result.coefficients.push_back({kKeys[i], value, 0.0, value, value, kUnits[i]});
+    json[kKeys[i]] = value;
+    json["lbf_mph"][estimation::road_load_lbf_key(i)] = lbf;
+    table.rows.push_back({fmt::format("f{}", i), fmt::format("{:.5g}", value), kUnits[i], fmt::format("{:.5g}", lbf)});
+  }
+  Table rolling;
+  result.warnings.push_back(
+      "a default road load is no measurement: it is meant to be above that of most vehicles of such a size");
+  if (!options.tire_class.empty()) {
+    const estimation::RrcClass& at = estimation::find_rrc_class(options.tire_class, options.rrc_N_per_kN);
+    const double force_N = 1e-3 * at.value_N_per_kN * kStandardGravity_m_s2 * options.mass_kg;
+    rolling.rows.push_back({"class of " + options.tire_class, std::string(1, at.label)});
+    rolling.rows.push_back({"its value", fmt::format("{:.1f} N/kN", at.value_N_per_kN)});
+    rolling.rows.push_back({"rolling resistance by that value", fmt::format("{:.1f} N", force_N)});
+    json["rolling_resistance"] = {{"tire_class", options.tire_class},
+                                  {"class", std::string(1, at.label)},
+                                  {"class_value_N_per_kN", at.value_N_per_kN},
+                                  {"force_N", force_N}};
+  }
+  json["warnings"] = result.warnings;
+  std::vector<Table> tables{table};
+  if (!rolling.rows.empty()) tables.push_back(rolling);
+  result.make_page = [tables, warnings = result.warnings, json] {
+    report::Page page{"fit default-road-load", "Default road load of the WLTP", "without a measurement"};
+    page.add(report::make_section("Result", tables, warnings));
+    page.add(report::make_document(json, "The result as JSON"));
+    return report::make_html(page);
+  };
+  result.text = format_tables(tables) + format_warnings(result.warnings);
+  result.json = to_text(json);
+  result.make_files = [json = result.json] { return FolderFiles{{"road_load.json", json}}; };
+  return result;
+}
+
+}  // namespace rollrig

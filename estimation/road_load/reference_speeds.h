@@ -1,0 +1,85 @@
+#pragma once
+/// Measurements at reference speeds in both headings: pairs, split runs, statistical precision, and three coefficients.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace rollrig::estimation {
+
+/// What one run gave at reference speeds; a split run does not have all of them.
+struct ReferenceRun {
+  std::string name;
+  std::string session;
+  int heading = 0;
+  std::map<int, double> values;  // by the number of the reference speed: a time, or a torque
+};
+
+/// Two runs of opposite headings, one after the other in their session.
+struct ReferencePair {
+  std::size_t plus = 0;  // runs
+  std::size_t minus = 0;
+  int part = 0;          // of split runs: 0 has the highest speeds
+  std::string rejected;  // why; empty where it counts
+};
+
+/// How the pairs agree at one reference speed.
+struct ReferencePrecision {
+  int pairs = 0;
+  double mean = 0.0;       // of the pairs' values
+  double sd = 0.0;         // of one pair's value
+  double precision = 0.0;  // h sd/(sqrt(pairs) mean)
+};
+
+/// Values of pairs at a speed: how two runs give one, and what the resistance is then.
+struct PairRule {
+  bool harmonic = false;   // 2/(1/a + 1/b) of times; else the mean
+  double numerator = 1.0;  // resistance = numerator/value of times; else numerator * value
+  const char* quantity = "coastdown times";
+
+  double join(double plus, double minus) const;
+  double resistance(double value) const { return harmonic ? numerator / value : numerator * value; }
+};
+
+struct ReferenceResult {
+  std::vector<int> speeds;  // numbers of the reference speeds, falling
+  std::vector<ReferencePair> pairs;
+  std::vector<ReferencePrecision> precisions;  // by speed
+  std::vector<double> resistances;             // by speed
+  std::vector<int> overlaps;                   // numbers of the speeds that parts of split runs share
+  std::vector<double> overlap_differences;     // of the resistances there, lower part less upper part
+  Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d freedom = Eigen::Vector3d::Zero();
+  std::vector<std::string> warnings;
+};
+
+/// Coefficient of the statistical precision for so many pairs, at least two.
+/// Equation  h: Student's t, two-sided 95 %, n - 1 degrees of freedom, to one decimal; 2.5 for n = 7
+/// Source    table of 70/220/EEC Annex III for n = 4 to 15, as Racelogic prints it (racelogic.support, Coastdown test
+///           theory; its 2.2 for n = 10 contradicts its own t/sqrt(n) = 0.73, so 2.3). For other n: Student's t
+/// Checked   tests/estimation/reference_speeds_test.cpp
+double calc_precision_coefficient(int pairs);
+
+/// Equation  p = h s/(sqrt(n) mean)
+/// Source    UN GTR 15 Annex 4, 4.3.1.4.2 (docs/road_load_procedures.md: not from the text)
+/// Checked   tests/estimation/reference_speeds_test.cpp
+ReferencePrecision calc_precision(const std::vector<double>& values);
+
+/// Pairs of the runs, statistical precision, resistance at each speed, and f0, f1, f2 by least squares over the speeds.
+///
+/// Runs that cover the same speeds belong together: of split runs, each part is paired for itself, and the force at a
+/// speed is that of all pairs that have it. Where the precision is not met, the pair farthest from the mean is
+/// rejected, as long as three pairs stay at each speed and at most a third of all is rejected.
+/// Equation  F_j mean over pairs; f = (X'X)^-1 X' F,  X = [1 v v^2];  covariance sum_s G_s S_s G_s'/n_s
+/// Symbols   S_s sample covariance of the pairs of part s over its speeds; G_s what its mean adds to f
+/// Validity  pairs independent of each other; freedom by Welch and Satterthwaite
+/// Errors    InputError: one heading alone, fewer than three pairs or fewer than four speeds
+/// Source    UN GTR 15 Annex 4, 4.3.1.3 and 4.3.1.4; Welch, Biometrika 34 (1947) 28
+/// Checked   tests/estimation/reference_speeds_test.cpp, tests/estimation/wltp_coverage_test.cpp
+ReferenceResult evaluate_reference_runs(const std::vector<ReferenceRun>& runs, const std::map<int, double>& speeds_m_s,
+                                        const PairRule& rule, const std::vector<std::string>& rejected_runs);
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,270 @@
+#include "estimation/road_load/road_load_procedure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "sim/core/units.h"
+
+namespace rollrig::estimation {
+namespace {
+
+double calc_root_of_squares(const std::vector<double>& values, const std::vector<double>& others) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    most = std::max(most, std::hypot(values[i], others.size() == values.size() ? others[i] : 0.0));
+  }
+  return most;
+}
+
+double calc_mean_total(const std::vector<double>& along, const std::vector<double>& across) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    sum += std::hypot(along[i], across.size() == along.size() ? across[i] : 0.0);
+  }
+  return along.empty() ? 0.0 : sum / static_cast<double>(along.size());
+}
+
+}  // namespace
+
+double RoadLoadProcedure::sd(int i) const {
+  double variance = repeatability(i, i);
+  for (const SensorContribution& sensor : sensors) variance += sensor.change(i) * sensor.change(i);
+  return std::sqrt(variance);
+}
+
+std::array<double, 2> RoadLoadProcedure::interval_95(int i) const {
+  constexpr double kMostFreedom = 1e6;
+  const double total = sd(i) * sd(i);
+  const double own = repeatability(i, i);
+  const double effective =
+      own > 0.0 ? std::clamp(freedom(i) * (total / own) * (total / own), 1.0, kMostFreedom) : kMostFreedom;
+  const double reach = boost::math::quantile(boost::math::students_t(effective), 0.975) * sd(i);
+  return {road_load(i) - reach, road_load(i) + reach};
+}
+
+double RoadLoadProcedure::force_N(double speed_m_s) const {
+  return road_load(0) + speed_m_s * (road_load(1) + speed_m_s * road_load(2));
+}
+
+double RoadLoadProcedure::force_sd_N(double speed_m_s) const {
+  const Eigen::Vector3d powers(1.0, speed_m_s, speed_m_s * speed_m_s);
+  double variance = powers.dot(repeatability * powers);
+  for (const SensorContribution& sensor : sensors) variance += std::pow(powers.dot(sensor.change), 2);
+  return std::sqrt(variance);
+}
+
+void put_masses(const RoadLoadProcedureOptions& options, RoadLoadProcedure& procedure) {
+  if (!options.mass_kg.has_value()) {
+    throw InputError({"the mass is missing: the procedure gives forces", "command line", 0, "--mass", "",
+                      "--mass <kg>, the mass of the vehicle as tested, the mean of before and after", ""});
+  }
+  procedure.correction.mass_kg = *options.mass_kg;
+  procedure.correction.corrected_to_mass_kg = options.corrected_to_mass_kg.value_or(*options.mass_kg);
+  procedure.rotating_mass_assumed = !options.rotating_mass_kg.has_value();
+  procedure.rotating_mass_kg = options.rotating_mass_kg.value_or((kDefaultEffectiveRatio - 1.0) * *options.mass_kg);
+  procedure.correction.rolling_fall_per_K = options.rolling_fall_per_K;
+  procedure.correction.reference_temperature_K = options.reference_temperature_K;
+}
+
+std::optional<double> mean_of_condition(const CoastdownData& data, std::vector<double> CoastdownConditions::*member) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const CoastdownRun& run : data.runs) {
+    const std::vector<double>& values = run.conditions.*member;
+    if (values.empty()) return std::nullopt;
+    for (const double value : values) sum += value;
+    count += values.size();
+  }
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
+std::string name_of_run(const CoastdownRun& run, const CoastdownData& data) {
+  const auto same = std::count_if(data.runs.begin(), data.runs.end(),
+                                  [&run](const CoastdownRun& other) { return other.id == run.id; });
+  return same > 1 ? run.session + "/" + run.id : run.id;
+}
+
+std::vector<std::string> check_winds(const CoastdownData& data, const WindLimits& limits,
+                                     std::vector<RoadLoadCheck>& checks) {
+  std::vector<std::string> above;
+  double mean_m_s = 0.0, peak_m_s = 0.0, across_m_s = 0.0;
+  bool any = false, any_across = false;
+  for (const CoastdownRun& run : data.runs) {
+    const CoastdownConditions& at = run.conditions;
+    if (at.wind_m_s.empty()) continue;
+    any = true;
+    any_across = any_across || !at.crosswind_m_s.empty();
+    const double mean = calc_mean_total(at.wind_m_s, at.crosswind_m_s);
+    const double peak = calc_root_of_squares(at.wind_m_s, at.crosswind_m_s);
+    const double across = at.crosswind_m_s.empty() ? 0.0 : std::abs(calc_mean(at.crosswind_m_s));
+    if (mean > limits.mean_m_s || peak > limits.peak_m_s || across > limits.across_m_s) {
+      above.push_back(name_of_run(run, data));
+    }
+    mean_m_s = std::max(mean_m_s, mean);
+    peak_m_s = std::max(peak_m_s, peak);
+    across_m_s = std::max(across_m_s, across);
+  }
+  const auto add = [&](const char* name, bool known, double found_m_s, double limit_m_s, const char* missing) {
+    const CheckStatus status = !known                   ? CheckStatus::kNotChecked
+                               : found_m_s <= limit_m_s ? CheckStatus::kPass
+                                                        : CheckStatus::kFail;
+    checks.push_back({name, status, known ? fmt::format("{:.2f} m/s", found_m_s) : missing,
+                      fmt::format("<= {:.1f} m/s", limit_m_s), limits.clause});
+  };
+  add("wind, mean of a run", any, mean_m_s, limits.mean_m_s, "no column wind_m_s");
+  add("wind, peak", any, peak_m_s, limits.peak_m_s, "no column wind_m_s");
+  add("crosswind, mean of a run", any_across, across_m_s, limits.across_m_s, "no column crosswind_m_s");
+  return above;
+}
+
+double find_common_wind(const CoastdownData& data) {
+  double sums[2] = {0.0, 0.0};
+  double counts[2] = {0.0, 0.0};
+  for (const CoastdownRun& run : data.runs) {
+    if (run.conditions.wind_m_s.empty() || run.heading == 0) continue;
+    sums[run.heading > 0 ? 0 : 1] += calc_mean(run.conditions.wind_m_s);
+    counts[run.heading > 0 ? 0 : 1] += 1.0;
+  }
+  if (counts[0] == 0.0 || counts[1] == 0.0) return 0.0;
+  return std::min(std::abs(sums[0] / counts[0]), std::abs(sums[1] / counts[1]));
+}
+
+void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options, double default_pressure_Pa,
+                    RoadLoadProcedure& procedure) {
+  constexpr double kColdest_K = kZeroCelsius_K + 5.0;
+  constexpr double kHottest_K = kZeroCelsius_K + 35.0;
+  constexpr double kMostChange_K = 5.0;
+  ReferenceCorrection& correction = procedure.correction;
+  correction.reference_pressure_Pa = options.reference_pressure_Pa.value_or(default_pressure_Pa);
+  correction.ambient_K = mean_of_condition(data, &CoastdownConditions::ambient_K);
+  correction.ambient_pressure_Pa = mean_of_condition(data, &CoastdownConditions::ambient_pressure_Pa);
+  if (!correction.ambient_K.has_value()) {
+    procedure.warnings.push_back("no column ambient_degC: the coefficients are not corrected for the air");
+    procedure.checks.push_back(
+        {"ambient temperature", CheckStatus::kNotChecked, "no column ambient_degC", "5 to 35 degC", "SAE J1263"});
+    return;
+  }
+  if (!correction.ambient_pressure_Pa.has_value()) {
+    procedure.warnings.push_back(
+        fmt::format("no column ambient_pressure_kPa: {:.5g} kPa, that of reference, is taken for it, which has an "
+                    "effect on f2",
+                    1e-3 * correction.reference_pressure_Pa));
+  }
+  double coldest_K = std::numeric_limits<double>::infinity();
+  double hottest_K = 0.0;
+  for (const CoastdownRun& run : data.runs) {
+    for (const double ambient_K : run.conditions.ambient_K) {
+      coldest_K = std::min(coldest_K, ambient_K);
+      hottest_K = std::max(hottest_K, ambient_K);
+    }
+  }
+  const std::string found =
+      fmt::format("{:.1f} to {:.1f} degC", coldest_K - kZeroCelsius_K, hottest_K - kZeroCelsius_K);
+  const bool within = coldest_K >= kColdest_K && hottest_K <= kHottest_K;
+  procedure.checks.push_back(
+      {"ambient temperature", within ? CheckStatus::kPass : CheckStatus::kFail, found, "5 to 35 degC", "SAE J1263"});
+  if (hottest_K - coldest_K > kMostChange_K) {
+    procedure.warnings.push_back(
+        fmt::format("the air was at {}: one correction for all runs is coarse where it changes by more than {:.0f} K",
+                    found, kMostChange_K));
+  }
+}
+
+void finish_procedure(const RoadLoadProcedureOptions& options, bool in_proportion_to_mass, double force_per_unit,
+                      RoadLoadProcedure& procedure) {
+  const ReferenceResult& reference = procedure.reference;
+  Eigen::Matrix3d jacobian;  // the correction is linear in the coefficients
+  for (int i = 0; i < 3; ++i) {
+    jacobian.col(i) = force_per_unit * correct_to_reference(Eigen::Vector3d::Unit(i), procedure.correction);
+  }
+  procedure.as_tested = reference.coefficients;
+  procedure.corrected = correct_to_reference(reference.coefficients, procedure.correction);
+  procedure.road_load = force_per_unit * procedure.corrected;
+  procedure.repeatability = jacobian * reference.covariance * jacobian.transpose();
+  procedure.freedom = reference.freedom;
+  if (!options.sensor_accuracy) return;
+  procedure.sensors = list_sensor_contributions(reference.coefficients, procedure.correction, in_proportion_to_mass);
+  for (SensorContribution& sensor : procedure.sensors) sensor.change *= force_per_unit;
+}
+
+void put_fitted(RoadLoadProcedure& procedure) {
+  for (ProcedurePoint& point : procedure.points) {
+    point.fitted =
+        procedure.as_tested(0) + point.speed_m_s * (procedure.as_tested(1) + point.speed_m_s * procedure.as_tested(2));
+  }
+}
+
+void check_reference_precision(RoadLoadProcedure& procedure) {
+  constexpr double kLimit = 0.03;
+  double worst = 0.0;
+  std::string found;
+  int fewest = std::numeric_limits<int>::max();
+  for (std::size_t i = 0; i < procedure.reference.speeds.size(); ++i) {
+    const ReferencePrecision& at = procedure.reference.precisions[i];
+    fewest = std::min(fewest, at.pairs);
+    if (!found.empty() && at.precision <= worst) continue;
+    worst = at.precision;
+    found = fmt::format("{:.2f} % at {:.4g} km/h", 100.0 * at.precision, kKmhPerMs * procedure.reference_speeds_m_s[i]);
+  }
+  constexpr const char* kClause = "UN GTR 15 Annex 4, 4.3.1.4.2";
+  procedure.checks.push_back(
+      {"pairs at each reference speed", CheckStatus::kPass, fmt::format("{}", fewest), ">= 3", kClause});
+  const CheckStatus status = worst <= kLimit ? CheckStatus::kPass : CheckStatus::kFail;
+  procedure.checks.push_back({"statistical precision", status, found, "<= 3 %", kClause});
+  if (status == CheckStatus::kFail) {
+    procedure.warnings.push_back(
+        fmt::format("the statistical precision is {}, above 3 %: more pairs are needed", found));
+  }
+}
+
+void doubt_units(RoadLoadProcedure& procedure) {
+  // Assumed: rolling loss of a car at 50 km/h is 0.004 to 0.016 of its weight, and its drag area over mass and that
+  // share is below 0.075 m2/kg. Speeds in mph that are taken for km/h divide f0 by 1.609, multiply f2 by it, and end
+  // near 80.
+  constexpr double kMostRolling = 0.0075;
+  constexpr double kMostRatio = 0.085;
+  constexpr double kMostTop_m_s = 110.0 / 3.6;
+  constexpr double kAt_m_s = 50.0 / 3.6;
+  constexpr double kFarBelow = 0.0015;
+  constexpr double kFarAbove = 0.03;
+  const double mass_kg = procedure.correction.mass_kg;
+  double top_m_s = 0.0;
+  for (const ProcedurePoint& point : procedure.points) top_m_s = std::max(top_m_s, point.speed_m_s);
+  const double rolling =
+      (procedure.road_load(0) + procedure.road_load(1) * kAt_m_s) / (mass_kg * kStandardGravity_m_s2);
+  const double area_m2 = 2.0 * procedure.road_load(2) / 1.2;
+  const double ratio = rolling > 0.0 ? area_m2 / mass_kg / rolling : 0.0;
+  if (top_m_s < kMostTop_m_s && rolling < kMostRolling && ratio > kMostRatio) {
+    procedure.warnings.push_back(fmt::format(
+        "the rolling loss is {:.4f} of the weight, which is low, f2 is that of a drag area of {:.2f} m2, which "
+        "is high for {:.0f} kg, and the speeds end near {:.0f}. All would be usual if they were in mph and not "
+        "in km/h",
+        rolling, area_m2, mass_kg, kKmhPerMs * top_m_s));
+  } else if (rolling > kFarAbove || (rolling > 0.0 && rolling < kFarBelow)) {
+    procedure.warnings.push_back(fmt::format(
+        "the rolling loss at 50 km/h is {:.4f} of the weight; that of cars is about 0.004 to 0.016. Are mass "
+        "and units right?",
+        rolling));
+  }
+  if (procedure.road_load(0) < 0.0 || procedure.road_load(2) < 0.0) {
+    procedure.warnings.push_back("f0 or f2 is below 0: the data do not fit a vehicle that coasts freely");
+  }
+}
+
+AirFlow calc_air_flow(double speed_m_s, double against_m_s, double across_m_s) {
+  const double along_m_s = speed_m_s + against_m_s;
+  return {std::hypot(along_m_s, across_m_s), std::atan2(across_m_s, along_m_s)};
+}
+
+double calc_coastdown_force_N(double effective_mass_kg, double fall_m_s, double duration_s, double mass_kg,
+                              double slope) {
+  return effective_mass_kg * fall_m_s / duration_s - mass_kg * kStandardGravity_m_s2 * slope;
+}
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,156 @@
+#pragma once
+/// A road load by the procedure of a regulation or a standard: what all of them give.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimation/road_load/coastdown_file.h"
+#include "estimation/road_load/reference_conditions.h"
+#include "estimation/road_load/reference_speeds.h"
+#include "estimation/road_load/road_load_checks.h"
+#include "include/rollrig/road_load_options.h"
+
+namespace rollrig::estimation {
+
+/// A measured resistance at a speed, and the fitted one, as tested.
+struct ProcedurePoint {
+  std::string run;  // empty: of all runs
+  int heading = 0;  // 0: of both
+  double speed_m_s = 0.0;
+  double measured = 0.0;  // N, or Nm
+  double fitted = 0.0;
+};
+
+/// A coefficient beside f0, f1, f2.
+struct FurtherCoefficient {
+  std::string key;    // with its unit, as in files
+  std::string label;  // in words
+  double value = 0.0;
+  double sd = 0.0;
+};
+
+struct RoadLoadProcedure {
+  RoadLoadProcedureKind kind = RoadLoadProcedureKind::kWltp;
+  Eigen::Vector3d as_tested = Eigen::Vector3d::Zero();      // SI, of a force; of a torque by the torque-meter method
+  Eigen::Vector3d corrected = Eigen::Vector3d::Zero();      // the same at reference conditions
+  Eigen::Vector3d road_load = Eigen::Vector3d::Zero();      // of the force at reference conditions
+  Eigen::Matrix3d repeatability = Eigen::Matrix3d::Zero();  // covariance of road_load by the scatter of the runs
+  Eigen::Vector3d freedom = Eigen::Vector3d::Zero();        // of that
+  std::vector<SensorContribution> sensors;                  // to road_load
+  std::vector<FurtherCoefficient> further;
+  ReferenceCorrection correction;
+  double rotating_mass_kg = 0.0;
+  bool rotating_mass_assumed = false;
+  double wheel_radius_m = 0.0;  // of the torque-meter method
+  std::vector<std::string> run_names;
+  ReferenceResult reference;  // of procedures with reference speeds
+  std::vector<double> reference_speeds_m_s;
+  std::vector<ProcedurePoint> points;
+  std::vector<RoadLoadCheck> checks;
+  std::vector<std::string> warnings;
+
+  /// Standard deviation of a coefficient: scatter of the runs and accuracy of the sensors.
+  double sd(int i) const;
+  /// Its interval of 95 %, with the effective freedom of Welch and Satterthwaite (GUM, G.4).
+  std::array<double, 2> interval_95(int i) const;
+  double force_N(double speed_m_s) const;
+  double force_sd_N(double speed_m_s) const;
+};
+
+/// Effective mass: that of the test and what rotates, 3 % of it where nothing else is known.
+/// Source    Regulation (EU) 2017/1151, 2.5.1 of Sub-Annex 4: 3 % of the mass in running order and 25 kg; of which
+///           only the mass as tested is known here
+void put_masses(const RoadLoadProcedureOptions& options, RoadLoadProcedure& procedure);
+
+/// Mean of a condition over the samples of runs; absent where a run does not have it.
+std::optional<double> mean_of_condition(const CoastdownData& data, std::vector<double> CoastdownConditions::*member);
+
+/// What a procedure allows of the wind.
+struct WindLimits {
+  double mean_m_s = 0.0;
+  double peak_m_s = 0.0;
+  double across_m_s = 0.0;
+  const char* clause = "";
+};
+/// Runs whose wind is above the limits, and a check of each limit over all runs.
+std::vector<std::string> check_winds(const CoastdownData& data, const WindLimits& limits,
+                                     std::vector<RoadLoadCheck>& checks);
+
+/// The wind that opposite headings do not cancel: the lower of the means of the headings; 0 where there is none.
+/// Source    UN GTR 15 Annex 4, 4.5.3.1 (not from the text)
+double find_common_wind(const CoastdownData& data);
+
+/// Weather of the test and the pressure of reference; warns of what is missing.
+void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options, double default_pressure_Pa,
+                    RoadLoadProcedure& procedure);
+
+/// Corrects `reference.coefficients` to the conditions of reference; `force_per_unit` makes the road load of them. The
+/// contributions of the sensors are there unless the options leave them out.
+void finish_procedure(const RoadLoadProcedureOptions& options, bool in_proportion_to_mass, double force_per_unit,
+                      RoadLoadProcedure& procedure);
+/// Fills `fitted` of the points, from `as_tested`.
+void put_fitted(RoadLoadProcedure& procedure);
+/// Pairs and statistical precision against the limits of the WLTP.
+void check_reference_precision(RoadLoadProcedure& procedure);
+
+/// Warns where the size of the coefficients says that speeds are in mph, or the mass is not that of the vehicle.
+void doubt_units(RoadLoadProcedure& procedure);
+
+/// As a run is named in messages.
+std::string name_of_run(const CoastdownRun& run, const CoastdownData& data);
+
+/// Coastdown times at reference speeds.
+/// Equation  F_j = (m_av + m_r) 2 Delta v/Delta t_j,  Delta v = 5 km/h, 1/Delta t_j mean of 1/Delta t over runs of both
+///           headings
+/// Symbols   Delta t_j time from v_j + Delta v to v_j - Delta v; m_av, m_r masses [kg]
+/// Validity  reference speeds 20, 30, ... km/h; the force is that over 10 km/h, at its middle speed
+/// Errors    InputError: those of evaluate_reference_runs(), bins that do not end at v_j + 5 and v_j - 5 km/h
+/// Source    UN GTR 15 Annex 4, 4.3.1.4; Regulation (EU) 2017/1151, 2.5.2 and 8.1.3.2 of Sub-Annex 4 (force)
+/// Checked   tests/estimation/wltp_coastdown_test.cpp, tests/estimation/wltp_coverage_test.cpp
+RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const RoadLoadProcedureOptions& options);
+
+/// Regression on speed traces with the air flow at each sample.
+/// Equation  -M dv/dt = k (A + B v) + 1/2 rho v_a^2 (a_0 + a_1 psi + ... ) + m g s h + h d_0
+/// Symbols   M effective, m vehicle mass [kg]; v_a air speed [m/s], psi yaw angle [rad]; rho air density [kg/m3];
+///           a_i drag area by powers of yaw [m2]; k factor of rolling loss; s slope; h heading; d_0 [N] slope that was
+///           not measured
+/// Validity  all of v^2 is drag of the air: the road load is A, B, 1/2 rho0 a_0
+/// Errors    InputError: no air flow and no wind (J2263), one heading alone, fewer than three pairs; RunFailure
+/// Source    SAE J2263 and Regulation (EU) 2017/1151, 4.3.2.5 of Sub-Annex 4 (form of the equation; there also C_m, which
+///           still air does not tell from a_0); 40 CFR 1037.528 (air flow and grade)
+/// Checked   tests/estimation/anemometer_test.cpp
+RoadLoadProcedure evaluate_traces(const CoastdownFile& file, const RoadLoadProcedureOptions& options);
+
+/// Torque of the driven wheels at reference speeds.
+/// Equation  C = c0 + c1 v + c2 v^2 by least squares;  f = 1.02 c*/r'
+/// Symbols   c* at reference conditions [Nm]; r' dynamic radius [m]; 1.02 losses of the driveline that are not between
+///           wheel and torque meter
+/// Errors    InputError: a wrong file, no radius, fewer than three pairs
+/// Source    Regulation (EU) 2017/1151, 4.4 of Sub-Annex 4; conversion: UN GTR 15 Annex 4 (not from the text)
+/// Checked   tests/estimation/torque_meter_test.cpp
+RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadProcedureOptions& options,
+                                        const std::vector<std::string>& sessions, BadRows bad_rows);
+
+struct AirFlow {
+  double speed_m_s = 0.0;
+  double yaw_rad = 0.0;
+};
+
+/// Air speed and direction at the vehicle from those of the wind.
+/// Equation  v_a = sqrt((v + w)^2 + c^2),  psi = atan2(c, v + w)
+/// Symbols   v speed; w wind against the vehicle, c across it [m/s]
+/// Source    40 CFR 1037.528(g)(2), (3), with its worked example
+/// Checked   tests/estimation/anemometer_test.cpp
+AirFlow calc_air_flow(double speed_m_s, double against_m_s, double across_m_s);
+
+/// Force between two points of a coastdown, without that of the slope.
+/// Equation  F = M_e (v_1 - v_2)/(t_2 - t_1) - m g (h_2 - h_1)/(D_2 - D_1)
+/// Source    40 CFR 1037.528(h)(4), with its worked example
+/// Checked   tests/estimation/anemometer_test.cpp
+double calc_coastdown_force_N(double effective_mass_kg, double fall_m_s, double duration_s, double mass_kg,
+                              double slope);
+
+}  // namespace rollrig::estimation

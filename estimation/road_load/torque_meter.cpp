@@ -1,0 +1,248 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <boost/math/constants/constants.hpp>
+
+#include "estimation/road_load/coastdown_rows.h"
+#include "estimation/road_load/road_load_procedure.h"
+#include "sim/core/text.h"
+#include "sim/core/units.h"
+
+namespace rollrig::estimation {
+namespace {
+
+constexpr const char* kTorqueClause = "Regulation (EU) 2017/1151, 4.4 of Sub-Annex 4";
+// Share of the road load that the torque meters do not see. UN GTR 15 Annex 4 (not from the text).
+constexpr double kDrivelineFactor = 1.02;
+
+/// Samples of one run at one reference speed.
+struct TorqueMeasurement {
+  std::size_t run = 0;
+  int reference_km_h = 0;
+  std::vector<double> time_s, speed_m_s, torque_Nm, wheel_Hz;
+};
+
+struct MeanTorque {
+  double speed_m_s = 0.0;
+  double torque_Nm = 0.0;
+  double acceleration_m_s2 = 0.0;
+};
+
+struct TorqueFile {
+  CoastdownData runs;  // their names, headings and conditions
+  std::vector<TorqueMeasurement> measurements;
+  bool has_times = false;
+  bool has_wheel_speeds = false;
+};
+
+std::vector<std::string> list_torque_columns() {
+  std::vector<std::string> columns{"reference_km_h", "speed_km_h", "wheel_torque_Nm", "time_s", "wheel_speed_Hz", "run",
+                                   "session",        "heading",    "vehicle"};
+  for (const std::string& column : list_condition_columns()) columns.push_back(column);
+  return columns;
+}
+
+TorqueFile read_torque_file(const std::string& path, BadRows bad_rows) {
+  CheckedRows rows(path);
+  const CsvTable& table = rows.table();
+  table.require_known(list_torque_columns());
+  require_one_vehicle(table);
+  TorqueFile file;
+  file.has_times = table.has("time_s");
+  file.has_wheel_speeds = table.has("wheel_speed_Hz");
+  const std::vector<double> references = rows.numbers({"reference_km_h", between(1.0, 300.0), ""});
+  const std::vector<double> speeds = rows.numbers({"speed_km_h", between(0.0, 500.0), ""});
+  const std::vector<double> torques = rows.numbers({"wheel_torque_Nm", any_number(), ""});
+  const std::vector<double> none;
+  const std::vector<double> times = file.has_times ? rows.numbers({"time_s", any_number(), ""}) : none;
+  const std::vector<double> wheels = file.has_wheel_speeds ? rows.numbers({"wheel_speed_Hz", positive(), ""}) : none;
+  const CoastdownConditions conditions = read_conditions(rows);
+  std::vector<bool> begins(rows.row_count(), false);
+  if (!begins.empty()) begins.front() = true;
+  const std::vector<RowsOfRun> of_runs = sort_into_runs(rows, begins, std::vector<bool>(rows.row_count(), true));
+  if (file.has_times) {
+    for (const RowsOfRun& run : of_runs) {
+      rows.check_times("time_s", run.rows, times, fmt::format(" within run '{}'", run.id));
+    }
+  }
+  rows.settle(bad_rows);
+  for (const RowsOfRun& of_run : of_runs) {
+    CoastdownRun run;
+    run.id = of_run.id;
+    run.session = of_run.session;
+    run.heading = of_run.heading;
+    std::map<int, TorqueMeasurement> measurements;
+    for (const std::size_t row : of_run.rows) {
+      if (rows.is_out(row)) continue;
+      const int reference_km_h = static_cast<int>(std::lround(kKmhPerMs * references[row]));
+      TorqueMeasurement& at = measurements[reference_km_h];
+      at.run = file.runs.runs.size();
+      at.reference_km_h = reference_km_h;
+      at.speed_m_s.push_back(speeds[row]);
+      at.torque_Nm.push_back(torques[row]);
+      if (file.has_times) at.time_s.push_back(times[row]);
+      if (file.has_wheel_speeds) at.wheel_Hz.push_back(wheels[row]);
+      add_conditions(conditions, row, run.conditions);
+    }
+    if (measurements.empty()) continue;
+    for (auto& [speed, measurement] : measurements) file.measurements.push_back(std::move(measurement));
+    file.runs.runs.push_back(std::move(run));
+  }
+  return file;
+}
+
+/// Radius from the wheels' rotation at 80 km/h, or at the highest reference speed below.
+double find_wheel_radius_m(const TorqueFile& file, const RoadLoadProcedureOptions& options) {
+  constexpr int kRadiusSpeed_km_h = 80;
+  if (options.wheel_radius_m.has_value()) return *options.wheel_radius_m;
+  if (!file.has_wheel_speeds) {
+    throw InputError({"the dynamic radius of the tires is missing: a torque becomes a force by it", "command line", 0,
+                      "--wheel-radius", "", "--wheel-radius <m>, or a column wheel_speed_Hz", ""});
+  }
+  int highest_km_h = 0;
+  for (const TorqueMeasurement& at : file.measurements) {
+    if (at.reference_km_h <= kRadiusSpeed_km_h) highest_km_h = std::max(highest_km_h, at.reference_km_h);
+  }
+  double speed_m_s = 0.0, turns_Hz = 0.0;
+  for (const TorqueMeasurement& at : file.measurements) {
+    if (at.reference_km_h != highest_km_h) continue;
+    speed_m_s += calc_mean(at.speed_m_s);
+    turns_Hz += calc_mean(at.wheel_Hz);
+  }
+  return speed_m_s / (boost::math::constants::two_pi<double>() * turns_Hz);
+}
+
+/// Equation  C_m = mean C - (m_st + m_r) a r,  a slope of the speed over time
+MeanTorque calc_mean_torque(const TorqueMeasurement& at, double effective_mass_kg, double radius_m) {
+  MeanTorque mean{calc_mean(at.speed_m_s), calc_mean(at.torque_Nm), 0.0};
+  if (at.time_s.size() < 2) return mean;
+  const double middle_s = calc_mean(at.time_s);
+  double across = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < at.time_s.size(); ++i) {
+    across += (at.time_s[i] - middle_s) * (at.speed_m_s[i] - mean.speed_m_s);
+    square += (at.time_s[i] - middle_s) * (at.time_s[i] - middle_s);
+  }
+  mean.acceleration_m_s2 = across / square;
+  mean.torque_Nm -= effective_mass_kg * mean.acceleration_m_s2 * radius_m;
+  return mean;
+}
+
+/// Speeds against those of reference, length and drift of the measurements.
+void check_measurements(const TorqueFile& file, const std::vector<MeanTorque>& means, RoadLoadProcedure& procedure) {
+  constexpr double kLeast_s = 5.0;
+  constexpr double kLeastSpeedError_km_h = 1.0;
+  constexpr double kSpeedShare = 0.02;
+  double shortest_s = 1e9, farthest = 0.0, fastest_drift = 0.0;
+  std::string found_speed;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const TorqueMeasurement& at = file.measurements[i];
+    if (file.has_times) shortest_s = std::min(shortest_s, at.time_s.back() - at.time_s.front());
+    fastest_drift = std::max(fastest_drift, std::abs(means[i].acceleration_m_s2));
+    const double error_km_h = kKmhPerMs * means[i].speed_m_s - at.reference_km_h;
+    const double share = std::abs(error_km_h) / std::max(kLeastSpeedError_km_h, kSpeedShare * at.reference_km_h);
+    if (!found_speed.empty() && share <= farthest) continue;
+    farthest = share;
+    found_speed = fmt::format("{:+.2f} km/h at {} km/h", error_km_h, at.reference_km_h);
+  }
+  const auto status = [](bool known, bool within) {
+    return !known ? CheckStatus::kNotChecked : within ? CheckStatus::kPass : CheckStatus::kFail;
+  };
+  procedure.checks.push_back({"mean speeds", status(true, farthest <= 1.0), found_speed, "1 km/h or 2 %",
+                              "Regulation (EU) 2017/1151, 4.4.2.4 of Sub-Annex 4"});
+  const bool is_long = shortest_s >= kLeast_s - 0.11;  // less one sample at 10 Hz
+  procedure.checks.push_back({"shortest measurement", status(file.has_times, is_long),
+                              file.has_times ? fmt::format("{:.1f} s", shortest_s) : "no column time_s", ">= 5 s",
+                              kTorqueClause});
+  if (farthest > 1.0) {
+    procedure.warnings.push_back(fmt::format(
+        "a mean speed is {} from its reference speed: are speed_km_h and reference_km_h in km/h?", found_speed));
+  }
+  if (!file.has_times) {
+    procedure.warnings.push_back("no column time_s: torques are not corrected for a drift of the speed");
+  } else if (fastest_drift > 0.05) {
+    procedure.warnings.push_back(
+        fmt::format("the speed changes by {:.2f} m/s2 during a measurement: it is not steady", fastest_drift));
+  }
+}
+
+/// Keeps what the sessions and --leave-out leave.
+void select_torque_runs(const RoadLoadProcedureOptions& options, const std::vector<std::string>& sessions,
+                        TorqueFile& file) {
+  std::vector<std::size_t> places(file.runs.runs.size(), file.runs.runs.size());
+  std::vector<CoastdownRun> kept;
+  for (std::size_t i = 0; i < file.runs.runs.size(); ++i) {
+    const CoastdownRun& run = file.runs.runs[i];
+    const bool other = !sessions.empty() && std::find(sessions.begin(), sessions.end(), run.session) == sessions.end();
+    const bool left_out =
+        std::any_of(options.leave_out.begin(), options.leave_out.end(),
+                    [&run](const std::string& name) { return name == run.id || name == run.session + "/" + run.id; });
+    if (other || left_out) continue;
+    places[i] = kept.size();
+    kept.push_back(run);
+  }
+  std::vector<TorqueMeasurement> measurements;
+  for (TorqueMeasurement& at : file.measurements) {
+    if (places[at.run] == file.runs.runs.size()) continue;
+    at.run = places[at.run];
+    measurements.push_back(std::move(at));
+  }
+  file.runs.runs = std::move(kept);
+  file.measurements = std::move(measurements);
+  if (!file.measurements.empty()) return;
+  throw InputError({"no run is left", "command line", 0, sessions.empty() ? "--leave-out" : "--session", "",
+                    "a session of the file, and runs that stay", ""});
+}
+
+}  // namespace
+
+RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadProcedureOptions& options,
+                                        const std::vector<std::string>& sessions, BadRows bad_rows) {
+  constexpr double kReferencePressure_Pa = 100e3;
+  RoadLoadProcedure procedure;
+  procedure.kind = RoadLoadProcedureKind::kTorqueMeter;
+  put_masses(options, procedure);
+  TorqueFile file = read_torque_file(path, bad_rows);
+  select_torque_runs(options, sessions, file);
+  put_conditions(file.runs, options, kReferencePressure_Pa, procedure);
+  const std::vector<std::string> windy =
+      check_winds(file.runs, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, procedure.checks);
+  procedure.correction.wind_m_s = find_common_wind(file.runs);
+  procedure.wheel_radius_m = find_wheel_radius_m(file, options);
+  const double effective_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
+  std::vector<MeanTorque> means;
+  std::vector<ReferenceRun> runs;
+  for (const CoastdownRun& run : file.runs.runs) {
+    runs.push_back({name_of_run(run, file.runs), run.session, run.heading, {}});
+    procedure.run_names.push_back(runs.back().name);
+  }
+  std::map<int, std::pair<double, int>> sums;  // of the mean speeds
+  for (const TorqueMeasurement& at : file.measurements) {
+    means.push_back(calc_mean_torque(at, effective_kg, procedure.wheel_radius_m));
+    const double reference_m_s = at.reference_km_h / kKmhPerMs;
+    if (reference_m_s < options.speed_from_m_s || reference_m_s > options.speed_to_m_s) continue;
+    runs[at.run].values[at.reference_km_h] = means.back().torque_Nm;
+    sums[at.reference_km_h].first += means.back().speed_m_s;
+    ++sums[at.reference_km_h].second;
+    procedure.points.push_back(
+        {runs[at.run].name, runs[at.run].heading, means.back().speed_m_s, means.back().torque_Nm, 0.0});
+  }
+  std::map<int, double> speeds_m_s;
+  for (const auto& [km_h, sum] : sums) speeds_m_s[km_h] = sum.first / sum.second;
+  const PairRule rule{false, 1.0, "torques"};
+  procedure.reference = evaluate_reference_runs(runs, speeds_m_s, rule, windy);
+  for (const int km_h : procedure.reference.speeds) procedure.reference_speeds_m_s.push_back(speeds_m_s.at(km_h));
+  procedure.warnings.insert(procedure.warnings.end(), procedure.reference.warnings.begin(),
+                            procedure.reference.warnings.end());
+  check_measurements(file, means, procedure);
+  check_reference_precision(procedure);
+  finish_procedure(options, false, kDrivelineFactor / procedure.wheel_radius_m, procedure);
+  put_fitted(procedure);
+  doubt_units(procedure);
+  return procedure;
+}
+
+}  // namespace rollrig::estimation

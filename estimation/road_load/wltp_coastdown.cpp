@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+#include <Eigen/QR>
+
+#include "estimation/road_load/coastdown_points.h"
+#include "estimation/road_load/road_load_procedure.h"
+#include "sim/core/text.h"
+
+namespace rollrig::estimation {
+namespace {
+
+// The lowest of them and their step: UN GTR 15 Annex 4, 2.2
+constexpr int kLowestReference_km_h = 20;
+constexpr int kReferenceStep_km_h = 10;
+constexpr int kHighestReference_km_h = 250;
+constexpr int kHalfStep_km_h = 5;
+constexpr double kMeterPerSecond = 1.0 / 3.6;  // of a km/h
+
+/// Times at which a trace passes 15, 25, 35 ... km/h: by a parabola through the samples of the cell about each.
+std::map<int, double> find_passing_times(const CoastdownRun& run, const RoadLoadProcedureOptions& options) {
+  constexpr int kCell_km_h = 5;
+  std::map<int, double> times;
+  for (const SpeedCell& cell :
+       cut_into_cells(run, {kCell_km_h * kMeterPerSecond, options.speed_from_m_s, options.speed_to_m_s})) {
+    const int km_h = kCell_km_h * static_cast<int>(std::lround(3.6 * cell.nominal_speed_m_s / kCell_km_h));
+    const double speed_m_s = km_h * kMeterPerSecond;
+    if (km_h % kReferenceStep_km_h != kHalfStep_km_h || cell.samples < 4) continue;
+    if (speed_m_s < cell.low_m_s || speed_m_s > cell.high_m_s) continue;
+    Eigen::MatrixXd X(cell.samples, 3);
+    Eigen::VectorXd y(cell.samples);
+    for (int i = 0; i < cell.samples; ++i) {
+      const std::size_t at = cell.first_sample + static_cast<std::size_t>(i);
+      const double s = run.time_s[at] - cell.mean_time_s;
+      X.row(i) << 1.0, s, s * s;
+      y(i) = run.speed_m_s[at] - speed_m_s;
+    }
+    const Eigen::Vector3d parabola = X.colPivHouseholderQr().solve(y);
+    double s = -parabola(0) / parabola(1);
+    for (int i = 0; i < 4; ++i) s = -(parabola(0) + parabola(2) * s * s) / parabola(1);
+    if (std::isfinite(s) && std::abs(s) <= cell.length_s) times[km_h] = cell.mean_time_s + s;
+  }
+  return times;
+}
+
+/// The same of times through bins: from the first edge on, as far as bins follow each other.
+std::map<int, double> add_up_bins(const CoastdownRun& run) {
+  constexpr double kSame_km_h = 0.01;
+  std::map<int, double> times;
+  double now_s = 0.0;
+  double last_km_h = std::numeric_limits<double>::infinity();
+  for (const SpeedBin& bin : run.bins) {
+    const double high_km_h = 3.6 * bin.high_m_s;
+    const double low_km_h = 3.6 * bin.low_m_s;
+    const auto put = [&times, &now_s](double edge_km_h) {
+      const int km_h = static_cast<int>(std::lround(edge_km_h));
+      const bool is_edge = km_h % kReferenceStep_km_h == kHalfStep_km_h;
+      if (is_edge && std::abs(edge_km_h - km_h) < kSame_km_h) times[km_h] = now_s;
+    };
+    if (std::abs(high_km_h - last_km_h) > kSame_km_h) {
+      // a gap: the times below it have another origin, far enough that no difference across it counts
+      now_s += 1e6;
+      put(high_km_h);
+    }
+    now_s += bin.duration_s;
+    put(low_km_h);
+    last_km_h = low_km_h;
+  }
+  return times;
+}
+
+/// Times through v + 5 to v - 5 km/h at the reference speeds of a run.
+std::map<int, double> find_reference_times(const CoastdownRun& run, const RoadLoadProcedureOptions& options) {
+  constexpr double kAcrossGap_s = 1e5;
+  const std::map<int, double> passing = run.bins.empty() ? find_passing_times(run, options) : add_up_bins(run);
+  std::map<int, double> times;
+  for (int km_h = kLowestReference_km_h; km_h <= kHighestReference_km_h; km_h += kReferenceStep_km_h) {
+    const auto upper = passing.find(km_h + kHalfStep_km_h);
+    const auto lower = passing.find(km_h - kHalfStep_km_h);
+    const double limit_m_s = 1e-6;
+    if (upper == passing.end() || lower == passing.end()) continue;
+    if ((km_h - kHalfStep_km_h) * kMeterPerSecond < options.speed_from_m_s - limit_m_s) continue;
+    if ((km_h + kHalfStep_km_h) * kMeterPerSecond > options.speed_to_m_s + limit_m_s) continue;
+    const double duration_s = lower->second - upper->second;
+    if (duration_s > 0.0 && duration_s < kAcrossGap_s) times[km_h] = duration_s;
+  }
+  return times;
+}
+
+std::vector<ReferenceRun> list_reference_runs(const CoastdownData& data, const RoadLoadProcedureOptions& options) {
+  std::vector<ReferenceRun> runs;
+  for (const CoastdownRun& run : data.runs) {
+    runs.push_back({name_of_run(run, data), run.session, run.heading, find_reference_times(run, options)});
+  }
+  const bool none = std::all_of(runs.begin(), runs.end(), [](const ReferenceRun& run) { return run.values.empty(); });
+  if (none && !data.runs.empty() && !data.runs.front().bins.empty()) {
+    throw InputError({"no bins end at v + 5 and v - 5 km/h of a reference speed v", "", 0, "v_hi_kmh", "",
+                      "edges at 15, 25, 35 ... km/h: the reference speeds are 20, 30, 40 ... km/h", ""});
+  }
+  return runs;
+}
+
+void check_reference_speeds(const RoadLoadProcedure& procedure, std::vector<RoadLoadCheck>& checks) {
+  constexpr int kExtraHigh_km_h = 130;  // the highest speed of the WLTC of class 3 is 131.3 km/h
+  const std::vector<int>& speeds = procedure.reference.speeds;
+  const bool whole = speeds.back() <= kLowestReference_km_h && speeds.front() >= kExtraHigh_km_h;
+  checks.push_back({"reference speeds", whole ? CheckStatus::kPass : CheckStatus::kFail,
+                    fmt::format("{} to {} km/h", speeds.back(), speeds.front()), "20 to 130 km/h or more (class 3)",
+                    "UN GTR 15 Annex 4, 2.2"});
+}
+
+void check_overlaps(RoadLoadProcedure& procedure) {
+  constexpr double kMost_N = 10.0;
+  constexpr double kMostShare = 0.05;
+  const ReferenceResult& reference = procedure.reference;
+  const auto parts = std::max_element(reference.pairs.begin(), reference.pairs.end(),
+                                      [](const auto& a, const auto& b) { return a.part < b.part; });
+  if (parts == reference.pairs.end() || parts->part == 0) return;
+  constexpr const char* kClause = "UN GTR 15 Annex 4, 4.3.1.3.4";
+  if (reference.overlaps.empty()) {
+    procedure.checks.push_back(
+        {"split runs", CheckStatus::kFail, "no reference speed in both parts", "one at least", kClause});
+    procedure.warnings.push_back(
+        "the parts of the split runs have no reference speed in common: nothing shows that they go together");
+    return;
+  }
+  double worst = 0.0;
+  std::string found;
+  for (std::size_t i = 0; i < reference.overlaps.size(); ++i) {
+    const auto at = std::find(reference.speeds.begin(), reference.speeds.end(), reference.overlaps[i]);
+    const double force_N = reference.resistances[static_cast<std::size_t>(at - reference.speeds.begin())];
+    const double share = std::abs(reference.overlap_differences[i]) / std::max(kMost_N, kMostShare * force_N);
+    if (!found.empty() && share <= worst) continue;
+    worst = share;
+    found = fmt::format("{:+.1f} N at {} km/h", reference.overlap_differences[i], reference.overlaps[i]);
+  }
+  procedure.checks.push_back({"split runs, force in common", worst <= 1.0 ? CheckStatus::kPass : CheckStatus::kFail,
+                              found, "10 N or 5 %", kClause});
+}
+
+}  // namespace
+
+RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const RoadLoadProcedureOptions& options) {
+  constexpr double kReferencePressure_Pa = 100e3;
+  RoadLoadProcedure procedure;
+  procedure.kind = RoadLoadProcedureKind::kWltp;
+  put_masses(options, procedure);
+  put_conditions(file.data, options, kReferencePressure_Pa, procedure);
+  const std::vector<std::string> windy =
+      check_winds(file.data, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, procedure.checks);
+  const std::vector<ReferenceRun> runs = list_reference_runs(file.data, options);
+  for (const ReferenceRun& run : runs) procedure.run_names.push_back(run.name);
+  std::map<int, double> speeds_m_s;
+  for (int km_h = kLowestReference_km_h; km_h <= kHighestReference_km_h; km_h += kReferenceStep_km_h) {
+    speeds_m_s[km_h] = km_h * kMeterPerSecond;
+  }
+  const double mass_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
+  const PairRule rule{true, mass_kg * 2.0 * kHalfStep_km_h * kMeterPerSecond, "coastdown times"};
+  procedure.reference = evaluate_reference_runs(runs, speeds_m_s, rule, windy);
+  for (const int km_h : procedure.reference.speeds) procedure.reference_speeds_m_s.push_back(speeds_m_s.at(km_h));
+  procedure.warnings.insert(procedure.warnings.end(), procedure.reference.warnings.begin(),
+                            procedure.reference.warnings.end());
+  if (file.data.runs.front().conditions.wind_m_s.empty()) {
+    procedure.warnings.push_back(
+        "no column wind_m_s: nothing is subtracted for the wind, which both headings have in f0 (f2 times its square)");
+  }
+  procedure.correction.wind_m_s = find_common_wind(file.data);
+  check_reference_speeds(procedure, procedure.checks);
+  check_reference_precision(procedure);
+  check_overlaps(procedure);
+  finish_procedure(options, true, 1.0, procedure);
+  for (const ReferenceRun& run : runs) {
+    for (const auto& [km_h, value] : run.values) {
+      if (std::find(procedure.reference.speeds.begin(), procedure.reference.speeds.end(), km_h) ==
+          procedure.reference.speeds.end()) {
+        continue;
+      }
+      procedure.points.push_back({run.name, run.heading, speeds_m_s.at(km_h), rule.resistance(value), 0.0});
+    }
+  }
+  put_fitted(procedure);
+  doubt_units(procedure);
+  return procedure;
+}
+
+}  // namespace rollrig::estimation

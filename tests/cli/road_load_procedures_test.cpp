@@ -1,0 +1,105 @@
+#include <catch2/catch.hpp>
+
+#include "build_paths.h"
+#include "sim/core/csv.h"
+#include "sim/core/json.h"
+#include "tests/cli/longest_line.h"
+#include "tests/support/procedure_study.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace rollrig;
+using Catch::Contains;
+using tests::longest_line;
+using tests::run_program;
+using tests::TemporaryFolder;
+
+namespace {
+
+tests::ProcedureStudy make_study(int pairs) {
+  tests::ProcedureStudy study;
+  study.pairs = pairs;
+  study.interval_s = 0.5;
+  study.wind_m_s = 1.0;
+  return study;
+}
+
+}  // namespace
+
+TEST_CASE("fit road-load by procedures: tables of 80 columns, JSON, points and page", "[fast]") {
+  const TemporaryFolder folder;
+  tests::ProcedureStudy study = make_study(5);
+  tests::write_file(folder.file("wind.csv"), tests::write_procedure_csv(tests::simulate_procedure(study, 1).file.data));
+  study.on_board = true;
+  tests::write_file(folder.file("air.csv"), tests::write_procedure_csv(tests::simulate_procedure(study, 1).file.data));
+  const std::pair<const char*, const char*> cases[]{{"wltp", "wind.csv"}, {"j1263", "wind.csv"}, {"j2263", "air.csv"}};
+  for (const auto& [method, file] : cases) {
+    INFO(method);
+    const std::string command = std::string("fit road-load ") + file + " --mass 1850 --rotating-mass 55.5 --method " +
+                                method + " --force --out fitted --html page.html";
+    const auto run = run_program(command, folder.path());
+    INFO(run.err << run.out);
+    REQUIRE(run.status == 0);
+    CHECK(longest_line(run.out) <= 80);
+    CHECK_THAT(run.out, Contains("scatter of the runs") && Contains("air temperature"));
+    CHECK_THAT(tests::read_file(folder.file("page.html")), Contains("scatter of the runs"));
+    const Json json = Json::parse(tests::read_file(folder.file("fitted/road_load.json")));
+    CHECK(json["format"] == "rollrig-road-load-procedure/1");
+    CHECK(json["procedure"] == method);
+    CHECK(json["f2_N_per_km_h2"].get<double>() == Approx(0.031).epsilon(0.2));
+    CHECK(json["f0_N_sd"].get<double>() >= json["sd_of_runs"]["f0_N"].get<double>());
+    CHECK(CsvTable::read(folder.file("fitted/points.csv")).has("measured_N"));
+  }
+}
+
+TEST_CASE("fit road-load by procedures: options and files that do not go together", "[fast]") {
+  const TemporaryFolder folder;
+  tests::write_file(folder.file("coast.csv"),
+                    tests::write_procedure_csv(tests::simulate_procedure(make_study(3), 1).file.data));
+  const auto error_of = [&](const std::string& options) {
+    const auto run = run_program("fit road-load coast.csv " + options, folder.path());
+    INFO(run.out);
+    CHECK(run.status == 2);
+    return run.err;
+  };
+  CHECK_THAT(error_of("--method wltp"), Contains("mass is missing"));
+  CHECK_THAT(error_of("--method wltpp --mass 1850"), Contains("wltp"));
+  CHECK_THAT(error_of("--method wltp --per-mass"), Contains("--per-mass has no meaning"));
+  CHECK_THAT(error_of("--mass 1850 --corrected-mass 1800"), Contains("--corrected-mass has no meaning"));
+  CHECK_THAT(error_of("--method wltp --mass 1850 --wheel-radius 0.3"), Contains("torque-meter"));
+  CHECK_THAT(error_of("--method torque-meter --mass 1850"), Contains("column"));
+  CHECK_THAT(error_of("--method wltp --mass 1850 --leave-out 9"), Contains("run '9'"));
+  CHECK_THAT(error_of("--method wltp --mass 1850 --leave-out 1"),
+             Contains("fewer than 3 pairs") && Contains("coast.csv"));
+  std::string mixed = tests::read_file(folder.file("coast.csv"));
+  mixed.insert(mixed.find('\n'), ",vehicle");
+  std::string with_vehicle;
+  std::size_t line = 0;
+  for (std::size_t at = 0; at < mixed.size(); ++line) {
+    const std::size_t end = mixed.find('\n', at);
+    with_vehicle += mixed.substr(at, end - at) + (line == 0 ? "" : line < 40 ? ",a" : ",b") + "\n";
+    at = end + 1;
+  }
+  tests::write_file(folder.file("coast.csv"), with_vehicle);
+  CHECK_THAT(error_of("--method wltp --mass 1850"), Contains("another vehicle than 'a'") && Contains("line 41"));
+}
+
+TEST_CASE("fit default-road-load: coefficients, class of a tire, what it is not", "[fast]") {
+  const TemporaryFolder folder;
+  const auto run = run_program(
+      "fit default-road-load --mass 1500 --width 1.8 --height 1.5 --tire-class C1 --rrc 7.3 --html page.html",
+      folder.path());
+  INFO(run.err << run.out);
+  REQUIRE(run.status == 0);
+  CHECK(longest_line(run.out) <= 80);
+  CHECK_THAT(run.out, Contains("210") && Contains("0.0501") && Contains("7.1 N/kN") && Contains("no measurement"));
+  const auto json = run_program("fit default-road-load --mass 1500 --width 1.8 --height 1.5 --json -", folder.path());
+  CHECK(Json::parse(json.out)["f1_N_per_km_h"] == 0.0);
+  CHECK_THAT(
+      run_program("fit default-road-load --mass 1500 --width 1.8 --height 1.5 --tire-class C9 --rrc 7", folder.path())
+          .err,
+      Contains("C9"));
+  CHECK_THAT(
+      run_program("fit default-road-load --mass 1500 --width 1.8 --height 1.5 --tire-class C1", folder.path()).err,
+      Contains("--rrc"));
+}

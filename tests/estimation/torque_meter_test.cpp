@@ -1,0 +1,127 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "estimation/road_load/road_load_procedure.h"
+#include "sim/core/csv.h"
+#include "sim/core/random.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace rollrig;
+using namespace rollrig::estimation;
+using Catch::Contains;
+
+namespace {
+
+struct TorqueStudy {
+  int pairs = 3;
+  double drift_m_s2 = 0.0;
+  double wind_m_s = 0.0;
+  double pair_sd = 0.0;      // relative, from run to run
+  double speed_scale = 1.0;  // 1/1.609344: speeds in mph
+  bool second_vehicle = false;
+};
+
+constexpr double kRadius_m = 0.32;
+constexpr double kMass_kg = 1600.0;
+constexpr double kTorque[] = {40.0, 0.6, 0.13};  // Nm and m/s
+
+std::string write_torques(const TorqueStudy& study, bool with_times = true) {
+  RandomStream random(5, "torque");
+  std::vector<std::string> columns{
+      "reference_km_h", "speed_km_h",   "wheel_torque_Nm",      "wheel_speed_Hz", "run",
+      "heading",        "ambient_degC", "ambient_pressure_kPa", "wind_m_s",       "vehicle"};
+  if (with_times) columns.push_back("time_s");
+  CsvWriter csv(columns);
+  for (int run = 0; run < 2 * study.pairs; ++run) {
+    const int heading = run % 2 == 0 ? 1 : -1;
+    const double scale = 1.0 + study.pair_sd * random.normal();
+    double time_s = 0.0;
+    for (int reference = 120; reference >= 20; reference -= 20) {
+      for (int i = 0; i < (with_times ? 60 : 1); ++i, time_s += 0.1) {
+        const double t = with_times ? 0.1 * (i - 29.5) : 0.0;
+        const double v = reference / 3.6 + study.drift_m_s2 * t;
+        const double air = v + heading * study.wind_m_s;
+        const double torque = scale * (kTorque[0] + kTorque[1] * v + kTorque[2] * air * air) +
+                              (kMass_kg + 48.0) * study.drift_m_s2 * kRadius_m;
+        csv.add(static_cast<double>(reference));
+        csv.add(3.6 * v * study.speed_scale);
+        csv.add(torque);
+        csv.add(v / (2.0 * 3.14159265358979 * kRadius_m));
+        csv.add(std::to_string(run + 1));
+        csv.add(std::string(heading > 0 ? "+" : "-"));
+        csv.add(20.0);
+        csv.add(100.0);
+        csv.add(study.wind_m_s);
+        csv.add(std::string(study.second_vehicle && run > 2 ? "other" : "car"));
+        if (with_times) csv.add(time_s);
+        csv.end_row();
+      }
+    }
+  }
+  return csv.take();
+}
+
+RoadLoadProcedure evaluate_torques(const std::string& csv, RoadLoadProcedureOptions options = {}) {
+  const tests::TemporaryFolder folder;
+  tests::write_file(folder.file("torque.csv"), csv);
+  options.kind = RoadLoadProcedureKind::kTorqueMeter;
+  options.mass_kg = kMass_kg;
+  return evaluate_torque_meter(folder.file("torque.csv"), options, {}, BadRows::kRefuse);
+}
+
+}  // namespace
+
+TEST_CASE("torque meter: running resistance and road load are found", "[fast]") {
+  TorqueStudy study;
+  study.wind_m_s = 2.0;
+  const RoadLoadProcedure procedure = evaluate_torques(write_torques(study));
+  CHECK(procedure.wheel_radius_m == Approx(kRadius_m).epsilon(1e-4));
+  // the mean of both headings has c2 w^2 in c0, which the correction takes out
+  CHECK(procedure.as_tested(0) == Approx(40.0 + 0.13 * 4.0).epsilon(1e-4));
+  for (int i = 0; i < 3; ++i) {
+    CHECK(procedure.corrected(i) == Approx(kTorque[i]).epsilon(1e-3));
+    CHECK(procedure.road_load(i) == Approx(1.02 * kTorque[i] / kRadius_m).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("torque meter: a drift of the speed is taken out of the torque", "[fast]") {
+  TorqueStudy study;
+  study.drift_m_s2 = -0.02;
+  const RoadLoadProcedure procedure = evaluate_torques(write_torques(study));
+  for (int i = 0; i < 3; ++i) CHECK(procedure.corrected(i) == Approx(kTorque[i]).epsilon(0.01));
+  // 1648 kg * 0.02 m/s2 * 0.32 m = 10.5 Nm would be missing
+  const RoadLoadProcedure means = evaluate_torques(write_torques(study, false));
+  CHECK(means.corrected(0) == Approx(kTorque[0] - 10.55).margin(0.2));
+  CHECK_THAT(means.warnings.front() + means.warnings.back(), Contains("not corrected for a drift"));
+}
+
+TEST_CASE("torque meter: precision, and what is wrong with a test", "[fast]") {
+  TorqueStudy study;
+  study.pairs = 6;
+  study.pair_sd = 0.01;
+  const RoadLoadProcedure procedure = evaluate_torques(write_torques(study));
+  CHECK(procedure.reference.precisions.front().precision < 0.03);
+  CHECK(procedure.sd(0) > 0.0);
+  study.second_vehicle = true;
+  CHECK_THROWS_WITH(evaluate_torques(write_torques(study)), Contains("another vehicle than 'car'"));
+  study = {};
+  study.pairs = 2;
+  CHECK_THROWS_WITH(evaluate_torques(write_torques(study)), Contains("fewer than 3 pairs"));
+  study = {};
+  study.speed_scale = 1.0 / 1.609344;
+  const RoadLoadProcedure mph = evaluate_torques(write_torques(study));
+  bool doubted = false;
+  for (const std::string& warning : mph.warnings) doubted = doubted || warning.find("km/h?") != std::string::npos;
+  CHECK(doubted);
+}
+
+TEST_CASE("torque meter: without wheel speeds a radius is asked for", "[fast]") {
+  const std::string csv =
+      "reference_km_h,speed_km_h,wheel_torque_Nm,run,heading\n20,20,45,1,+\n50,50,75,1,+\n80,80,130,1,+\n110,110,200,1,"
+      "+\n";
+  CHECK_THROWS_WITH(evaluate_torques(csv), Contains("dynamic radius"));
+  RoadLoadProcedureOptions options;
+  options.wheel_radius_m = 0.3;
+  CHECK_THROWS_WITH(evaluate_torques(csv, options), Contains("same heading"));
+}
