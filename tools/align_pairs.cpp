@@ -1,7 +1,7 @@
 /// Aligns pairs of simulated machines that differ by one effect each, and prints how well it works.
 ///
 /// usage: align_pairs <pairs> <seed> own|alike [difference...]
-/// `own`: tires of their own sizes and loads; `alike`: tires of one size and load. docs/alignment.md has the tables.
+/// `own`: tires of their own loads, 3 to 6 kN; `alike`: tires of one load. docs/alignment.md has the tables.
 #include <algorithm>
 #include <exception>
 #include <iostream>

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -18,11 +17,10 @@ namespace {
 
 constexpr std::size_t kAlignmentTires = 5, kFurtherTires = 5, kRepeats = 4;
 constexpr double kLeastTarget_N_per_kN = 6.5, kTargetStep_N_per_kN = 1.1;
-const std::array<const char*, 4> kBaseTires{"a40", "a50", "a60", "c1_205_55r16"};
+constexpr const char* kBaseTire = "c1_205_55r16";
 
-/// A tire of the study: a shipped one with other numbers.
+/// A tire of the study: the shipped one with other numbers.
 struct PairTire {
-  std::string base;
   double load_N = 0.0, pressure_kPa = 0.0;
   double loss_factor = 1.0, fall_factor = 1.0, speed_rise_factor = 1.0;
   double texture_factor = 1.0;  // over the mean of the tires, where the drums have another texture
@@ -54,32 +52,19 @@ Scatter draw_scatter(RandomStream& random) {
   return {0.5 * random.normal(), random.normal(), 0.003 * random.normal(), 0.02 * random.normal()};
 }
 
-struct TestSetup {
-  double rrc_N_per_kN, load_N, pressure_kPa;  // of the ISO test of a shipped tire
-};
-
-const TestSetup& find_setup(const std::string& base) {
-  static const std::map<std::string, TestSetup> setups = [] {
-    std::map<std::string, TestSetup> found;
-    for (const char* name : kBaseTires) {
-      const auto iso = *make_spec("iso_28580", name).tire.iso_28580;
-      found[name] = {1e3 * iso.rrc, iso.load_N, iso.pressure_Pa / 1e3};
-    }
-    return found;
-  }();
-  return setups.at(base);
+/// The ISO test of the shipped tire.
+const models::Iso28580Reference& find_base_test() {
+  static const models::Iso28580Reference test = *make_spec("iso_28580", kBaseTire).tire.iso_28580;
+  return test;
 }
 
 /// A tire near a coefficient. A tire with more loss runs warmer, which the power makes up for roughly.
 PairTire draw_tire(RandomStream& random, double target_N_per_kN, TireLoads loads) {
+  const models::Iso28580Reference& base = find_base_test();
   PairTire tire;
-  tire.base = kBaseTires[static_cast<std::size_t>(random.uniform() * static_cast<double>(kBaseTires.size()))];
-  if (loads == TireLoads::kAlike) tire.base = "c1_205_55r16";
-  const TestSetup& setup = find_setup(tire.base);
-  const double load_share = draw_between(random, 0.75, 1.0);
-  tire.load_N = setup.load_N * (loads == TireLoads::kAlike ? 1.0 : load_share);
-  tire.pressure_kPa = setup.pressure_kPa;
-  tire.loss_factor = std::pow(target_N_per_kN / setup.rrc_N_per_kN, 1.2);
+  tire.load_N = loads == TireLoads::kAlike ? base.load_N : draw_between(random, 3000.0, 6000.0);
+  tire.pressure_kPa = base.pressure_Pa / 1e3;
+  tire.loss_factor = std::pow(1e-3 * target_N_per_kN / base.rrc, 1.2);
   tire.fall_factor = std::exp(0.15 * random.normal());
   tire.speed_rise_factor = std::exp(0.2 * random.normal());
   tire.texture_factor = 1.0 + 0.005 * random.normal();
@@ -93,7 +78,7 @@ double measure(const Machine& machine, const PairTire& tire, const Scatter& scat
   settings.push_back(fmt::format("ambient_degC={}", ambient_degC));
   settings.push_back(fmt::format("load_N={}", tire.load_N * (1.0 + scatter.load_share)));
   settings.push_back(fmt::format("pressure_kPa={}", tire.pressure_kPa + scatter.pressure_kPa));
-  scenarios::RunSpec spec = make_spec("iso_28580", tire.base, settings, {{"rig", machine.rig}});
+  scenarios::RunSpec spec = make_spec("iso_28580", kBaseTire, settings, {{"rig", machine.rig}});
   const bool has_texture = machine.texture_factor != 1.0;
   const auto scale = [&spec](const char* key, double factor) {
     *models::find_own_number(spec.tire.values.own, key) *= factor;
@@ -257,7 +242,6 @@ MachinePair simulate_pair(const std::string& difference, TireLoads loads, std::u
 
 std::vector<MachinePair> simulate_pairs(const std::vector<std::string>& differences, TireLoads loads, std::size_t pairs,
                                         std::uint64_t seed, const std::function<void(double)>& advance) {
-  for (const char* base : kBaseTires) find_setup(base);
   std::vector<MachinePair> all(differences.size() * pairs);
   parallel_for(
       all.size(), 0, [&](std::size_t i) { all[i] = simulate_pair(differences[i / pairs], loads, seed, i % pairs); },

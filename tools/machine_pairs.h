@@ -43,7 +43,8 @@ enum class TireLoads { kOfItsOwn, kAlike };
 
 /// Five alignment tires and five further ones on two machines, by the quasi-static ISO 28580 test; each alignment tire
 /// four times on both, the first time not used. Seeded by `seed` and `index` alone.
-/// Validity  Assumed: tires of 6.5 to 11 N/kN, whose temperature and speed laws, loads and sizes differ; from one
+/// Validity  Assumed: tires of 6.5 to 11 N/kN, all made from the shipped c1_205_55r16, whose laws of temperature (15 %)
+///           and speed (20 %) differ, and with kOfItsOwn their loads, 3 to 6 kN; from one
 ///           measurement to the next, standard deviations of 0.5 K of the air, 1 kPa of the pressure, 0.3 % of the load
 ///           and 0.02 N/kN of the reading
 MachinePair simulate_pair(const std::string& difference, TireLoads loads, std::uint64_t seed, std::size_t index);

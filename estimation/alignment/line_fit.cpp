@@ -56,7 +56,7 @@ void weigh_scatter(LineFit& fit, const RepeatScatter& repeats) {
   fit.freedom = more_than_repeats ? p - 2.0 : repeats.degrees_of_freedom;
   const double excess = fit.residual_sd * fit.residual_sd - fit.repeat_sd * fit.repeat_sd;
   fit.between_sd = std::sqrt(std::max(0.0, excess));
-  fit.attenuation = p * repeats.candidate_sd * repeats.candidate_sd / fit.Sxx;
+  fit.attenuation = (p - 3.0) * repeats.candidate_sd * repeats.candidate_sd / fit.Sxx;
   if (fit.repeat_sd > 0.0 && fit.repeat_freedom > 0.0) {
     const double ratio = std::pow(fit.residual_sd / fit.repeat_sd, 2);
     fit.lack_of_fit_p = boost::math::cdf(complement(boost::math::fisher_f(p - 2.0, fit.repeat_freedom), ratio));

@@ -48,7 +48,8 @@ struct RepeatScatter {
 /// Equation  slope = Sxy/Sxx; s_r^2 = sum residual^2/(p - 2); s_w^2 = sd_y^2 + slope^2 sd_x^2 of the repeats;
 ///           s = max(s_r, s_w); tau^2 = max(0, s_r^2 - s_w^2), what the tires differ by besides;
 ///           sd(slope) = s/sqrt(Sxx), sd(offset) = s sqrt(1/p + mean_x^2/Sxx);
-///           attenuation = p sd_x^2/Sxx, the share by which errors of x make the slope too small
+///           attenuation = (p - 3) sd_x^2/Sxx, the share by which errors of x make the slope too small on average: to
+///           first order Sxx is larger by (p - 1) sd_x^2, and 2 sd_x^2/Sxx comes of how both vary together
 /// Validity  errors of x are small beside the range of x: attenuation far below 1. s is the larger
 ///           one, since p - 2 is three for five tires, and chance could make s_r too small
 /// Source    Draper and Smith, Applied Regression Analysis; Fuller, Measurement Error Models, section 1.1

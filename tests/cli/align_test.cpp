@@ -95,11 +95,13 @@ TEST_CASE("kg/t is N/kN", "[fast]") {
 TEST_CASE("a machine of too large a sigma_m is told how often to measure", "[fast]") {
   const TemporaryFolder folder;
   write_file(folder.file("tires.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN", 0.2));
-  const auto run = run_program("align tires.csv", folder.path());
+  const auto run = run_program("align tires.csv --json -", folder.path());
   CHECK(run.status == 1);
-  // -0.03, 0, 0.23: standard deviation 0.1418; 1 + (0.1418/0.043)^2 = 11.9.
-  CHECK_THAT(flatten(run.out),
-             Contains("0.142 N/kN") && Contains("12 measurements of each tire") && Contains("NOT valid"));
+  const json alignment = json::parse(run.out);
+  // -0.03, 0, 0.23: standard deviation 0.1422; 1 + (0.1422/0.043)^2 = 11.9.
+  CHECK(alignment["sigma_m_N_per_kN"]["value"].get<double>() == Approx(0.1422).epsilon(1e-3));
+  CHECK(alignment["measurements_needed"] == 12);
+  CHECK(alignment["valid"] == false);
 }
 
 TEST_CASE("an alignment ends with two years, a change of the machine or a drift", "[fast]") {
@@ -134,10 +136,14 @@ TEST_CASE("an alignment ends with two years, a change of the machine or a drift"
 }
 
 TEST_CASE("a set that breaks rules is aligned on demand, but is not valid", "[fast]") {
-  const auto run = run_program("align '" ROLLRIG_SOURCE_DIR "/tests/bad_input/align_four_tires.csv' --preliminary");
+  const auto run =
+      run_program("align '" ROLLRIG_SOURCE_DIR "/tests/bad_input/align_four_tires.csv' --preliminary --json -");
   INFO(run.out << run.err);
   CHECK(run.status == 1);
-  CHECK_THAT(flatten(run.out), Contains("NOT valid") && Contains(">= 5 NO"));
+  const json alignment = json::parse(run.out);
+  CHECK(alignment["valid"] == false);
+  CHECK(alignment["checks"][0]["name"] == "alignment tires");
+  CHECK(alignment["checks"][0]["met"] == false);
 }
 
 TEST_CASE("a value outside the tires, and one of an alignment that is not valid, have their warning", "[fast]") {
