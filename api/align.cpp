@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "estimation/alignment/alignment.h"
 #include "report/alignment_page.h"
 #include "sim/core/columns.h"
 #include "sim/core/error.h"
+#include "sim/core/file_io.h"
 
 namespace rollrig {
 namespace {
@@ -80,6 +82,16 @@ std::vector<std::string> list_value_warnings(const AlignedValueInput& input,
   return warnings;
 }
 
+/// The files of the measurements, as they were read.
+std::vector<report::ReportFile> list_alignment_inputs(const estimation::AlignmentFile& file) {
+  std::vector<report::ReportFile> inputs;
+  for (const std::string& path : file.inputs) {
+    inputs.push_back(
+        {inputs.empty() ? "measurements" : "values of the reference", path, calc_sha256(read_text_file(path))});
+  }
+  return inputs;
+}
+
 }  // namespace
 
 Alignment align(const AlignmentInput& input) {
@@ -89,10 +101,15 @@ Alignment align(const AlignmentInput& input) {
   fill_numbers(*result, alignment);
   alignment.text = fmt::format("align   {}   classes {}\n", file->path, file->rules.classes) +
                    format_tables(report::make_alignment_tables(*file, *result)) + format_warnings(result->warnings);
-  alignment.json = to_text(estimation::make_alignment_json(*file, *result));
+  Json json = estimation::make_alignment_json(*file, *result);
+  alignment.json = to_text(json);
   alignment.make_files = [file, result, json = alignment.json] {
     return FolderFiles{{"alignment.json", json},
                        {"measurements.csv", estimation::make_measurement_csv(*file, *result)}};
+  };
+  alignment.make_test_report = [file, result, json = std::move(json), files = list_alignment_inputs(*file)] {
+    return report::make_report_html(report::make_alignment_report(*file, *result, json, files),
+                                    report::find_report_date());
   };
   alignment.make_page = [file, result] { return report::make_html(report::make_alignment_page(*file, *result)); };
   return alignment;

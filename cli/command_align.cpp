@@ -25,9 +25,10 @@ int align_command(const AlignOptions& options) {
 }
 
 int apply_command(const AlignOptions& options) {
-  if (!options.output.folder.empty() || !options.output.html.empty()) {
-    throw usage_error("an aligned value is a text or JSON", options.output.folder.empty() ? "--html" : "--out", "",
-                      "--json");
+  for (const auto& [option, path] :
+       {std::pair("--out", options.output.folder), std::pair("--html", options.output.html),
+        std::pair("--report", options.output.report)}) {
+    if (!path.empty()) throw usage_error("an aligned value is a text or JSON", option, path, "--json");
   }
   Output output(options.output);
   output.show(apply_alignment(options.value));
@@ -71,6 +72,7 @@ void add_align_command(CLI::App& app, Action& action) {
       ->needs(apply);
   options->output.add_to(*command, "File for the alignment, - for standard output",
                          "Folder for alignment.json, measurements.csv");
+  options->output.add_report_to(*command);
 }
 
 }  // namespace rollrig::cli

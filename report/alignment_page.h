@@ -1,10 +1,11 @@
 #pragma once
-/// The tables of `rollrig align` for terminal and page, and its page.
+/// The tables of `rollrig align` for terminal and page, its page, and its certificate.
 
 #include <vector>
 
 #include "estimation/alignment/alignment.h"
 #include "report/page.h"
+#include "report/test_report.h"
 #include "sim/core/columns.h"
 
 namespace rollrig::report {
@@ -18,6 +19,10 @@ std::vector<Table> make_control_tire_tables(const estimation::AlignmentResult& r
 
 /// These tables, the line, residuals, control tires over time.
 Page make_alignment_page(const estimation::AlignmentFile& file, const estimation::AlignmentResult& result);
+
+/// The certificate to print, with the numbers of its JSON.
+TestReport make_alignment_report(const estimation::AlignmentFile& file, const estimation::AlignmentResult& result,
+                                 const Json& json, const std::vector<ReportFile>& files);
 
 /// An aligned value and the contributions to its uncertainty.
 std::vector<Table> make_aligned_value_tables(double measured_N_per_kN, int measurements,

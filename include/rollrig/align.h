@@ -35,7 +35,8 @@ struct AlignmentCheck {
   bool is_rule = true;  // of the regulation; else advice, which does not make the alignment invalid
 };
 
-/// RRC_aligned = A1 (A2 RRC_m + B2) + B1. Its files: alignment.json, measurements.csv.
+/// RRC_aligned = A1 (A2 RRC_m + B2) + B1. Its files: alignment.json, measurements.csv; its test report
+/// is the certificate.
 struct Alignment : Report {
   ParameterEstimate A2;  // of the reference machine's value over the candidate's
   ParameterEstimate B2;  // N/kN

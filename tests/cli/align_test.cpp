@@ -154,3 +154,18 @@ TEST_CASE("a value outside the tires, and one of an alignment that is not valid,
   CHECK(run.status == 0);
   CHECK_THAT(flatten(run.out), Contains("extrapolated") && Contains("not valid"));
 }
+
+TEST_CASE("the certificate has the numbers of the JSON, the hash of its file, and room for signatures", "[fast]") {
+  const TemporaryFolder folder;
+  const auto run = run_program(
+      "align " + kAlignmentExample + " --reference-machine drum_A --report certificate.html --json alignment.json",
+      folder.path());
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const std::string page = read_file(folder.file("certificate.html"));
+  const json alignment = json::parse(read_file(folder.file("alignment.json")));
+  const std::string A2 = std::to_string(alignment["line"]["A2"]["value"].get<double>()).substr(0, 5);
+  CHECK_THAT(page, Contains("data-json=\"/line/A2/value\">" + A2) && Contains("Signature") &&
+                       Contains("data-json=\"/valid_until\">2028-"));
+  CHECK_THAT(page, !Contains("<script"));
+}
