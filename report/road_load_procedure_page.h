@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "estimation/road_load/road_load_procedure.h"
+#include "include/rollrig/result.h"
 #include "report/page.h"
 #include "sim/core/columns.h"
 

@@ -26,7 +26,7 @@ const std::vector<ConditionColumn> kConditionColumns{
     {{"crosswind_m_s", between(-40.0, 40.0), ""}, &CoastdownConditions::crosswind_m_s},
     {{"slope", between(-0.2, 0.2), ""}, &CoastdownConditions::slope},
     {{"air_speed_km_h", between(0.0, 500.0), ""}, &CoastdownConditions::air_speed_m_s},
-    {{"yaw_deg", between(-90.0, 90.0), ""}, &CoastdownConditions::yaw_rad}};
+    {{"yaw_deg", between(-180.0, 180.0), ""}, &CoastdownConditions::yaw_rad}};
 
 std::vector<std::string> read_sessions(const CsvTable& table) {
   for (const char* column : {"session", "file", "test_date"}) {
