@@ -11,6 +11,7 @@
 #include "sim/core/error.h"
 #include "sim/core/parse_json.h"
 #include "sim/core/units.h"
+#include "sim/core/visible.h"
 
 namespace fs = std::filesystem;
 
@@ -94,17 +95,23 @@ RollingCoefficients read_rolling_coefficients(const std::string& path) {
   result.low_m_s = low->speed_m_s;
   result.high_m_s = high->speed_m_s;
   const Json tire = json.value("tire", Json());
-  if (tire.is_string()) result.tire = tire.get<std::string>();
+  if (tire.is_string()) result.tire = show_on_one_line(tire.get<std::string>());
   if (!json.contains("reference")) return result;
   const auto number = [&](const char* key) {
     return unit_of_key(key).to_si(find_fit_number(json, {"reference", key}, result.path));
   };
   result.reference = {number("load_N"), number("pressure_kPa"), number("speed_km_h")};
+  for (const char* key : {"load_N", "pressure_kPa", "speed_km_h"}) {
+    if (number(key) > 0.0) continue;
+    throw InputError({"the reference condition is not positive", result.path, 0, fmt::format("reference.{}", key), "",
+                      "a positive number", ""});
+  }
   result.smerf_N = find_fit_number(json, {"reference", "smerf", "value_N"}, result.path);
   const double urban_share = find_fit_number(json, {"reference", "smerf", "urban_share"}, result.path);
   const auto name_cycle = [&json](const char* key) {
-    const Json cycle = json["reference"].value(key, Json::object()).value("cycle", Json());
-    return cycle.is_string() ? cycle.get<std::string>() : std::string("another cycle");
+    const Json mean = json["reference"].value(key, Json());
+    const Json cycle = mean.is_object() ? mean.value("cycle", Json()) : Json();
+    return cycle.is_string() ? show_on_one_line(cycle.get<std::string>()) : std::string("another cycle");
   };
   result.cycles = fmt::format("{} ({:.4g}) and {} ({:.4g})", name_cycle("merf_urban"), urban_share,
                               name_cycle("merf_highway"), 1.0 - urban_share);

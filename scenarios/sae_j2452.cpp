@@ -60,7 +60,7 @@ struct Results {
           of_reference([](const auto& r) { return r.condition.load_N; }));
     visit(Result{"reference_pressure_kPa", "", ".0f", "pressure of the standard reference condition"}.or_left_out(),
           of_reference([](const auto& r) { return r.condition.pressure_Pa; }));
-    visit(JointLine{"Standard reference condition", "{reference_load_N}, {reference_pressure_kPa}, at 80 km/h"});
+    visit(JointLine{"Standard reference condition, 80 km/h", "{reference_load_N}, {reference_pressure_kPa}"});
     visit(Result{"reference_rolling_resistance_N", "", ".2f", "of the law, there"}.or_left_out(),
           of_reference([](const auto& r) { return r.force.value_N; }));
     visit(Result{"reference_rrc_N_per_kN", "", ".3f", "the same over load"}.or_left_out(),

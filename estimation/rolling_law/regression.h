@@ -41,7 +41,8 @@ struct RegressionStatistics {
   std::optional<LackOfFit> lack_of_fit;  // where points are repeated and the law leaves freedom
 };
 
-/// Points count as repeats where speed, load and pressure agree within 0.5 %. Assumed: what a machine holds.
+/// Points count as repeats where speed, load and pressure agree within 0.5 %.
+/// Assumed: 0.5 %, what a machine holds
 RegressionStatistics calc_statistics(const std::vector<FittedPoint>& points, int coefficients);
 
 /// (J^T J)^-1 by a QR decomposition of J with columns of unit length; `leverages` gets the diagonal of the hat matrix.

@@ -20,7 +20,7 @@ constexpr const char* kSources =
     "a CSV file with speed_km_h, load_N, pressure_kPa and rolling_resistance_N, or the folder or result.json of a run "
     "of sae_j2452 or sae_j1269";
 
-// Ranges far beyond those of tires, so that most mistaken units are refused. Assumed.
+// Assumed: ranges far beyond those of tires, so that most mistaken units are refused
 const Field kSpeed{"speed_km_h", between(1.0, 300.0), "Speed of the surface"};
 const Field kLoad{"load_N", between(100.0, 100000.0), "Load on the tire"};
 const Field kPressure{"pressure_kPa", between(50.0, 1500.0), "Gauge pressure"};

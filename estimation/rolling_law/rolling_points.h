@@ -53,8 +53,8 @@ RollingTest read_rolling_test(const std::string& path, PressureTaken taken = Pre
 /// Doubts that hold for each of the fits: a coefficient of rolling resistance that no tire has (units mistaken).
 std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points);
 
-/// How many values are different, where those within 2 % of the least of their group count as one. Assumed: 2 %, more
-/// than a machine misses its set value by, less than the steps of a test.
+/// How many values are different, where those within 2 % of the least of their group count as one.
+/// Assumed: 2 %, more than a machine misses its set value by, less than the steps of a test
 std::size_t count_levels(std::vector<double> values);
 
 }  // namespace rollrig::estimation

@@ -168,3 +168,14 @@ TEST_CASE("what a target needs and the fit does not say is asked for", "[fast]")
   CHECK_THROWS_WITH(exports::make_tir(make_coefficients(), std::nullopt), Catch::Contains("unloaded radius"));
   CHECK_NOTHROW(exports::make_tydex(bare));
 }
+
+TEST_CASE("a name of another file cannot add lines to what is written", "[fast]") {
+  const tests::TemporaryFolder folder;
+  tests::write_file(folder.file("fit.json"),
+                    "{\"format\": \"rollrig-j2452-fit/1\", \"tire\": \"a\\nQSY1 = 9\", \"coefficients\": {\"alpha\": "
+                    "{\"value\": -0.4}, \"beta\": {\"value\": 0.9}, \"a\": {\"value\": 0.1}, \"b\": {\"value\": 1e-4}, "
+                    "\"c\": {\"value\": 1e-6}}, \"points\": [{\"speed_km_h\": 80, \"load_N\": 4000, \"pressure_kPa\": "
+                    "240, \"rolling_resistance_N\": 36}]}");
+  CHECK_THAT(exports::make_tydex(exports::read_rolling_coefficients(folder.path())),
+             Catch::Contains("tire a\\nQSY1 = 9\n"));
+}

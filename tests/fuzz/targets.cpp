@@ -11,6 +11,8 @@
 #include "estimation/alignment/alignment.h"
 #include "estimation/drum_deceleration/coast_set.h"
 #include "estimation/road_load/coastdown_file.h"
+#include "estimation/rolling_law/rolling_points.h"
+#include "exports/coefficients.h"
 #include "exports/tree.h"
 #include "include/rollrig/sweep.h"
 #include "measurements/logs/guess.h"
@@ -302,6 +304,22 @@ std::vector<Target> make_targets() {
                        append(read_seeds("tests/bad_input", "align_", ".csv"), seeds);
                        return seeds;
                      }});
+  targets.push_back({"rolling_points",
+                     {"points.csv"},
+                     [](const std::string& folder) { estimation::read_rolling_test(in(folder, "points.csv")); },
+                     [] {
+                       Seeds seeds = read_seeds("assets/examples", "j2452", ".csv");
+                       append(read_seeds("tests/bad_input", "j2452_", ".csv"), seeds);
+                       return seeds;
+                     }});
+  targets.push_back({"rolling_result",
+                     {"result.json"},
+                     [](const std::string& folder) { estimation::read_rolling_test(in(folder, "result.json")); },
+                     [] { return read_seeds("tests/bad_input", "j2452_other", ".json"); }});
+  targets.push_back({"rolling_fit",
+                     {"fit.json"},
+                     [](const std::string& folder) { exports::read_rolling_coefficients(in(folder, "fit.json")); },
+                     [] { return read_seeds("tests/bad_input", "j2452_fit", ".json"); }});
   targets.push_back({"drum_coastdown",
                      {"set.toml", "coastdown_good.csv"},
                      [](const std::string& folder) { estimation::read_coast_set(in(folder, "set.toml")); },
