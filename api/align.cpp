@@ -49,7 +49,7 @@ Json make_value_json(const AlignedValueInput& input, const estimation::StoredAli
                {"degrees_of_freedom", aligned.degrees_of_freedom},
                {"coverage_factor", aligned.coverage_factor},
                {"ci95_N_per_kN", {aligned.value - half, aligned.value + half}}};
-  json["contributions"] = make_list(aligned.contributions, [](const estimation::Contribution& one) {
+  json["contributions"] = make_list(aligned.contributions, [](const estimation::AlignedContribution& one) {
     return Json{{"name", one.name}, {"sd_N_per_kN", one.sd}, {"degrees_of_freedom", one.degrees_of_freedom}};
   });
   if (!warnings.empty()) json["warnings"] = warnings;

@@ -192,7 +192,7 @@ std::vector<Table> make_aligned_value_tables(double measured_N_per_kN, int measu
                {"aligned", fmt::format("{:.3f} +- {:.3f} N/kN (95 %, k = {:.2f})", aligned.value,
                                        aligned.coverage_factor * aligned.sd, aligned.coverage_factor)}}};
   Table budget{"Uncertainty", {"contribution", "u N/kN", "degrees of freedom", "share of u2 %"}, {}};
-  for (const estimation::Contribution& one : aligned.contributions) {
+  for (const estimation::AlignedContribution& one : aligned.contributions) {
     const double share = aligned.sd > 0.0 ? 100.0 * one.sd * one.sd / (aligned.sd * aligned.sd) : 0.0;
     budget.rows.push_back({one.name, fmt::format("{:.4f}", one.sd), fmt::format("{:.0f}", one.degrees_of_freedom),
                            fmt::format("{:.1f}", share)});

@@ -72,7 +72,7 @@ ReportSection make_alignment_uncertainty(const estimation::AlignmentResult& resu
                     {"contribution", "u, N/kN", "degrees of freedom", "share, %"},
                     {},
                     1};
-  for (const estimation::Contribution& one : aligned.contributions) {
+  for (const estimation::AlignedContribution& one : aligned.contributions) {
     table.rows.push_back({{one.name},
                           {fmt::format("{:.4f}", one.sd)},
                           {fmt::format("{:.0f}", one.degrees_of_freedom)},

@@ -80,7 +80,7 @@ struct LineFit {
 LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, const RepeatScatter& repeats);
 
 /// One contribution to the uncertainty of an aligned value.
-struct Contribution {
+struct AlignedContribution {
   std::string name;
   double sd = 0.0;  // in the unit of the result
   double degrees_of_freedom = 0.0;
@@ -92,7 +92,7 @@ struct UncertainValue {
   double sd = 0.0;
   double degrees_of_freedom = 0.0;  // Welch and Satterthwaite
   double coverage_factor = 2.0;     // of 95 %
-  std::vector<Contribution> contributions;
+  std::vector<AlignedContribution> contributions;
 };
 
 /// Numbers of an alignment that a later value needs.
