@@ -213,7 +213,7 @@ void judge_validity(const AlignmentFile& file, const AlignmentInput& input, Alig
                                 [](const AlignmentCheck& check) { return check.is_met || !check.is_rule; });
 }
 
-void add_warnings(const AlignmentFile& file, const AlignmentInput& input, AlignmentResult& result) {
+void add_line_warnings(const AlignmentFile& file, const AlignmentInput& input, AlignmentResult& result) {
   if (!input.reference.has_value() && !file.is_assigned) {
     result.warnings.push_back(
         "A1 and B1 of the reference laboratory are not given (--reference): the result is aligned "
@@ -258,7 +258,7 @@ AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& i
   result.monitoring = watch_control_tires(file.controls);
   add_monitoring(file, result);
   judge_validity(file, input, result);
-  add_warnings(file, input, result);
+  add_line_warnings(file, input, result);
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kAlignmentFormat = "rollrig-alignment/1";
 
-Json to_json(const ScatterEstimate& scatter) {
+Json alignment_json(const ScatterEstimate& scatter) {
   return {{"value", scatter.sd},
           {"degrees_of_freedom", scatter.degrees_of_freedom},
           {"ci95", {scatter.low_95, scatter.high_95}}};
@@ -50,7 +50,7 @@ Json make_line_json(const LineFit& fit) {
           {"attenuation", fit.attenuation}};
 }
 
-Json to_json(const ControlChart& chart) {
+Json alignment_json(const ControlChart& chart) {
   Json json = {{"tire", chart.tire},
                {"measurements", chart.rrc_N_per_kN.size()},
                {"center_N_per_kN", chart.center_N_per_kN},
@@ -65,7 +65,8 @@ Json to_json(const ControlChart& chart) {
 }
 
 Json make_monitoring_json(const ControlMonitoring& monitoring) {
-  Json json = {{"tires", make_list(monitoring.charts, [](const ControlChart& chart) { return to_json(chart); })}};
+  Json json = {
+      {"tires", make_list(monitoring.charts, [](const ControlChart& chart) { return alignment_json(chart); })}};
   if (!monitoring.drift.has_value()) return json;
   const ControlDrift& drift = *monitoring.drift;
   json["drift"] = {{"N_per_kN_per_year", drift.N_per_kN_per_year},
@@ -146,8 +147,8 @@ Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& resul
   json["A1"] = result.line.A1;
   json["B1_N_per_kN"] = result.line.B1;
   json["line"] = make_line_json(result.fit);
-  json["sigma_m_N_per_kN"] = to_json(result.sigma_m);
-  if (result.sigma_l.has_value()) json["sigma_of_reference_N_per_kN"] = to_json(*result.sigma_l);
+  json["sigma_m_N_per_kN"] = alignment_json(result.sigma_m);
+  if (result.sigma_l.has_value()) json["sigma_of_reference_N_per_kN"] = alignment_json(*result.sigma_l);
   json["measurements_needed"] = result.needed_measurements;
   json["range_measured_N_per_kN"] = {result.fit.points.front().x, result.fit.points.back().x};
   json["tires"] = Json::array();

@@ -19,7 +19,7 @@ struct MultipointTerm {
   int pressure_power;
 };
 
-const std::vector<MultipointTerm>& list_terms(MultipointForm form) {
+const std::vector<MultipointTerm>& list_j1269_terms(MultipointForm form) {
   static const std::vector<MultipointTerm> bilinear{
       {"A0", "N", 0, 0}, {"A1", "N/N", 1, 0}, {"A2", "N kPa", 0, 1}, {"A3", "N kPa/N", 1, 1}};
   static const std::vector<MultipointTerm> proportional{{"A1", "N/N", 1, 0}, {"A3", "N kPa/N", 1, 1}};
@@ -27,7 +27,7 @@ const std::vector<MultipointTerm>& list_terms(MultipointForm form) {
 }
 
 Eigen::VectorXd make_multipoint_row(const MultipointFit& fit, double load_N, double pressure_Pa) {
-  const std::vector<MultipointTerm>& terms = list_terms(fit.form);
+  const std::vector<MultipointTerm>& terms = list_j1269_terms(fit.form);
   Eigen::VectorXd row(static_cast<Eigen::Index>(terms.size()));
   for (std::size_t i = 0; i < terms.size(); ++i) {
     row(static_cast<Eigen::Index>(i)) = std::pow(load_N / fit.load_0_N, terms[i].load_power) *
@@ -43,7 +43,7 @@ std::size_t count_levels_of(const std::vector<RollingPoint>& points, double Roll
 }
 
 void require_multipoint(const std::vector<RollingPoint>& points, MultipointForm form) {
-  const std::size_t least = list_terms(form).size();
+  const std::size_t least = list_j1269_terms(form).size();
   if (points.size() < least) {
     throw InputError({fmt::format("too few points for a law of load and pressure: {}", points.size()), "", 0, "", "",
                       fmt::format("at least {} points", least), ""});
@@ -79,7 +79,7 @@ void choose_multipoint_scaling(const std::vector<RollingPoint>& points, Multipoi
 }
 
 void put_multipoint_coefficients(MultipointFit& fit) {
-  const std::vector<MultipointTerm>& terms = list_terms(fit.form);
+  const std::vector<MultipointTerm>& terms = list_j1269_terms(fit.form);
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const double unit =
@@ -121,7 +121,7 @@ MultipointFit fit_multipoint(const std::vector<RollingPoint>& points, Multipoint
   fit.form = form;
   choose_multipoint_scaling(points, fit);
   const auto rows = static_cast<Eigen::Index>(points.size());
-  const auto columns = static_cast<Eigen::Index>(list_terms(form).size());
+  const auto columns = static_cast<Eigen::Index>(list_j1269_terms(form).size());
   Eigen::MatrixXd design(rows, columns);
   Eigen::VectorXd force_N(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {

@@ -10,25 +10,25 @@ namespace rollrig::estimation {
 namespace {
 
 /// null where a number is not finite: without freedom there is no standard deviation.
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+Json law_number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json estimate_json(const ParameterEstimate& estimate) {
   return {{"value", estimate.value},
-          {"sd", finite_or_null(estimate.sd)},
-          {"ci95", {finite_or_null(estimate.low_95), finite_or_null(estimate.high_95)}},
+          {"sd", law_number(estimate.sd)},
+          {"ci95", {law_number(estimate.low_95), law_number(estimate.high_95)}},
           {"unit", estimate.unit}};
 }
 
 Json force_json(const ForceEstimate& estimate, int freedom) {
   const double reach = calc_student_reach(freedom) * estimate.sd_N;
   Json json = {{"value_N", estimate.value_N}};
-  json["sd_N"] = freedom > 0 ? finite_or_null(estimate.sd_N) : Json();
-  json["ci95_N"] = {freedom > 0 ? finite_or_null(estimate.value_N - reach) : Json(),
-                    freedom > 0 ? finite_or_null(estimate.value_N + reach) : Json()};
+  json["sd_N"] = freedom > 0 ? law_number(estimate.sd_N) : Json();
+  json["ci95_N"] = {freedom > 0 ? law_number(estimate.value_N - reach) : Json(),
+                    freedom > 0 ? law_number(estimate.value_N + reach) : Json()};
   return json;
 }
 
-Json coefficients_json(const std::vector<ParameterEstimate>& coefficients) {
+Json law_coefficients_json(const std::vector<ParameterEstimate>& coefficients) {
   Json json = Json::object();
   for (const ParameterEstimate& coefficient : coefficients) json[coefficient.name] = estimate_json(coefficient);
   return json;
@@ -63,7 +63,7 @@ Json range_json(const std::vector<FittedPoint>& points) {
           {"pressure_kPa", range(&RollingPoint::pressure_Pa, 1e-3)}};
 }
 
-Json points_json(const std::vector<FittedPoint>& points) {
+Json law_points_json(const std::vector<FittedPoint>& points) {
   return make_list(points, [](const FittedPoint& at) {
     return Json{{"speed_km_h", kKmhPerMs * at.point.speed_m_s},
                 {"load_N", at.point.load_N},
@@ -79,7 +79,7 @@ Json condition_json(const ReferenceCondition& at) {
 
 void put_end(const RollingTest& test, const std::vector<FittedPoint>& points, const std::vector<std::string>& warnings,
              Json& json) {
-  json["points"] = points_json(points);
+  json["points"] = law_points_json(points);
   std::vector<std::string> all = test.warnings;
   all.insert(all.end(), warnings.begin(), warnings.end());
   if (!all.empty()) json["warnings"] = all;
@@ -107,7 +107,7 @@ Json make_j2452_json(const RollingTest& test, const J2452Fit& fit, const std::op
   Json json = start_json("rollrig-j2452-fit/1", test);
   json["law"] = "F = P^alpha Z^beta (a + b v + c v^2)";
   json["units"] = {{"F", "N"}, {"P", "kPa"}, {"Z", "N"}, {"v", "km/h"}};
-  json["coefficients"] = coefficients_json(fit.coefficients);
+  json["coefficients"] = law_coefficients_json(fit.coefficients);
   json["statistics"] = statistics_json(fit.points, fit.statistics);
   json["range"] = range_json(fit.points);
   if (reference.has_value()) {
@@ -134,7 +134,7 @@ Json make_multipoint_json(const RollingTest& test, const MultipointFit& fit,
   json["law"] = is_bilinear ? "F = A0 + A1 Z + A2/P + A3 Z/P" : "F = Z (A1 + A3/P)";
   json["units"] = {{"F", "N"}, {"P", "kPa"}, {"Z", "N"}};
   json["speed_km_h"] = kKmhPerMs * fit.speed_m_s;
-  json["coefficients"] = coefficients_json(fit.coefficients);
+  json["coefficients"] = law_coefficients_json(fit.coefficients);
   json["statistics"] = statistics_json(fit.points, fit.statistics);
   json["range"] = range_json(fit.points);
   json["mean_rrc_N_per_kN"] = 1e3 * fit.mean_coefficient;

@@ -13,7 +13,7 @@ namespace {
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-const char* name_of(Distribution distribution) {
+const char* distribution_name(Distribution distribution) {
   switch (distribution) {
     case Distribution::kRectangular:
       return "rectangular";
@@ -33,7 +33,7 @@ Json contribution_to_json(const Contribution& line, const Unit& of_result) {
           {"standard_uncertainty", input.standard_uncertainty / unit.factor},
           {"unit", unit.symbol},
           {"type", input.evaluation == Evaluation::kTypeA ? "A" : "B"},
-          {"distribution", name_of(input.distribution)},
+          {"distribution", distribution_name(input.distribution)},
           {"degrees_of_freedom", finite_or_null(input.degrees_freedom)},
           {"sensitivity", line.sensitivity * unit.factor / of_result.factor},
           {"contribution", line.contribution / of_result.factor},

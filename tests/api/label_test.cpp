@@ -24,7 +24,7 @@ std::string find_refused_label(const LabelInput& input) {
   return "";
 }
 
-LabelInput make_input(double rrc_N_per_kN, const char* tire_class) {
+LabelInput make_label_input(double rrc_N_per_kN, const char* tire_class) {
   LabelInput input;
   input.rrc_N_per_kN = rrc_N_per_kN;
   input.tire_class = tire_class;
@@ -40,7 +40,7 @@ rollrig::VectoTireInput make_vecto_input(const char* tire) {
 }  // namespace
 
 TEST_CASE("a label is found as the command finds it", "[fast]") {
-  LabelInput input = make_input(8.4, "C1");
+  LabelInput input = make_label_input(8.4, "C1");
   const TireLabel label = make_label(input);
   CHECK(label.text == run_program("label --rrc 8.4 --class C1").out);
   CHECK(label.json == run_program("label --rrc 8.4 --class C1 --json -").out);
@@ -55,7 +55,7 @@ TEST_CASE("a label is found as the command finds it", "[fast]") {
 }
 
 TEST_CASE("a load index from 122 tells class C3 by itself, and a tire file its own", "[fast]") {
-  LabelInput input = make_input(5.55, "");
+  LabelInput input = make_label_input(5.55, "");
   input.load_index = "156/150";
   CHECK(make_label(input).tire_class == "C3");
   LabelInput of_tire;
@@ -67,13 +67,13 @@ TEST_CASE("a load index from 122 tells class C3 by itself, and a tire file its o
 }
 
 TEST_CASE("the rolling resistance that the terms of a label cannot be found for is refused", "[fast]") {
-  CHECK(find_refused_label(make_input(8.4, "C1")).empty());
-  CHECK(find_refused_label(make_input(80.0, "C1")) == "--rrc");
-  CHECK(find_refused_label(make_input(0.008, "C1")) == "--rrc");
-  CHECK(find_refused_label(make_input(8.4, "C4")) == "--class");
-  CHECK(find_refused_label(make_input(8.4, "")) == "--class");
+  CHECK(find_refused_label(make_label_input(8.4, "C1")).empty());
+  CHECK(find_refused_label(make_label_input(80.0, "C1")) == "--rrc");
+  CHECK(find_refused_label(make_label_input(0.008, "C1")) == "--rrc");
+  CHECK(find_refused_label(make_label_input(8.4, "C4")) == "--class");
+  CHECK(find_refused_label(make_label_input(8.4, "")) == "--class");
   CHECK(find_refused_label({}) == "--class");
-  LabelInput input = make_input(8.4, "C2");
+  LabelInput input = make_label_input(8.4, "C2");
   input.load_index = "150";
   CHECK(find_refused_label(input) == "--class");
   input.load_index = "59";

@@ -22,7 +22,7 @@ using tests::write_file;
 namespace {
 
 /// Runs `rollrig <arguments> --report ... --json ...`, prints the report on A4 and compares its numbers with the JSON.
-void check_command(const TemporaryFolder& folder, const std::string& arguments, const std::string& asked = "") {
+void check_report_of(const TemporaryFolder& folder, const std::string& arguments, const std::string& asked = "") {
   const auto run = run_program(arguments + " --report report.html --json result.json", folder.path());
   INFO(arguments << '\n' << run.out << run.err);
   REQUIRE(run.status == 0);
@@ -134,35 +134,36 @@ TEST_CASE("the result with an uncertainty is that without", "[fast]") {
 }
 
 TEST_CASE("report of an ISO test on A4", "[slow]") {
-  check_command(TemporaryFolder(), "run iso_28580 --tire a50 --fidelity quasi_static",
-                "--shows 'to be filled in by hand'");
+  check_report_of(TemporaryFolder(), "run iso_28580 --tire a50 --fidelity quasi_static",
+                  "--shows 'to be filled in by hand'");
 }
 
 TEST_CASE("report of an ISO test of many cycles with Monte Carlo on A4", "[slow]") {
-  check_command(TemporaryFolder(),
-                "run iso_28580 --tire a50 --fidelity quasi_static --sensors source --set measurement_cycles=40 "
-                "--monte-carlo 2000 --set effects.bearing_warmup.fall_per_K=0.03",
-                "--shows 'repeatability, cycle to cycle'");
+  check_report_of(TemporaryFolder(),
+                  "run iso_28580 --tire a50 --fidelity quasi_static --sensors source --set measurement_cycles=40 "
+                  "--monte-carlo 2000 --set effects.bearing_warmup.fall_per_K=0.03",
+                  "--shows 'repeatability, cycle to cycle'");
 }
 
 TEST_CASE("report of an ISO test on a flat belt on A4", "[slow]") {
-  check_command(TemporaryFolder(), "run iso_28580 --tire a50 --rig flat_belt --fidelity quasi_static");
+  check_report_of(TemporaryFolder(), "run iso_28580 --tire a50 --rig flat_belt --fidelity quasi_static");
 }
 
 TEST_CASE("reports of coastdowns on A4", "[slow]") {
-  check_command(TemporaryFolder(), "run coastdown --tire a50 --fidelity quasi_static --set pairs=3 --monte-carlo 1000");
-  check_command(TemporaryFolder(), "run coastdown --tire a50 --fidelity quasi_static --rig dyno_1m2");
+  check_report_of(TemporaryFolder(),
+                  "run coastdown --tire a50 --fidelity quasi_static --set pairs=3 --monte-carlo 1000");
+  check_report_of(TemporaryFolder(), "run coastdown --tire a50 --fidelity quasi_static --rig dyno_1m2");
   tests::CoastdownStudy study;
   study.run_force_sd_N = 3.0;
   const TemporaryFolder folder;
   write_file(folder.file("coastdowns.csv"), tests::write_coastdown_csv(tests::simulate_coastdowns(study, 1)));
-  check_command(folder, "fit road-load coastdowns.csv --mass 2100", "--shows coastdowns.csv");
-  check_command(folder, "fit road-load coastdowns.csv --per-mass --monte-carlo 1000 --seed 3");
+  check_report_of(folder, "fit road-load coastdowns.csv --mass 2100", "--shows coastdowns.csv");
+  check_report_of(folder, "fit road-load coastdowns.csv --per-mass --monte-carlo 1000 --seed 3");
 }
 
 TEST_CASE("report of a multi-cycle test on A4", "[slow]") {
-  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --fidelity quasi_static",
-                "--shows 'Dynamometer setting A'");
+  check_report_of(TemporaryFolder(), "run sae_j1634 --tire a50 --fidelity quasi_static",
+                  "--shows 'Dynamometer setting A'");
 }
 
 TEST_CASE("report of a tire whose names are long and hold a script on A4", "[slow]") {
@@ -172,5 +173,5 @@ TEST_CASE("report of a tire whose names are long and hold a script on A4", "[slo
   const std::size_t at = tire.find("name");
   tire.replace(at, tire.find('\n', at) - at, "name = '" + name + "'");
   write_file(folder.file("mine.toml"), tire);
-  check_command(folder, "run iso_28580 --tire ./mine.toml --fidelity quasi_static", "--shows '" + name + "'");
+  check_report_of(folder, "run iso_28580 --tire ./mine.toml --fidelity quasi_static", "--shows '" + name + "'");
 }
