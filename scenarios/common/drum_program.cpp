@@ -92,11 +92,11 @@ void DrumProgram::change_speed(const std::string& name, double duration_s, doubl
 }
 
 void DrumProgram::coast(const std::string& name, double end_m_s, double longest_s) {
-  sim::Phase& phase = append(name, longest_s, speed_m_s_);
+  speed_m_s_ = end_m_s;  // where the motor takes over; until then the input is not followed
+  sim::Phase& phase = append(name, longest_s, end_m_s);
   phase.commands = {{rigs::kDrive, 0.0}};
   phase.max_step_s = kMaxStepOfCoast_s;
   phase.until = sim::StopCondition{rigs::kWatchSpeed, end_m_s, sim::StopCondition::Direction::kFalling};
-  speed_m_s_ = end_m_s;
 }
 
 void DrumProgram::follow(const std::string& name, const measurements::MeasuredRun& run, const rigs::MachineKind& kind) {
