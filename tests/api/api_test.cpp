@@ -198,6 +198,28 @@ TEST_CASE("a road load has the coefficients of its JSON, with intervals around t
   }
 }
 
+TEST_CASE("a law of SAE J2452 has five coefficients with intervals, and a file for another program", "[fast]") {
+  rollrig::RollingLawOptions options;
+  options.maximum_load_N = 6570.0;
+  options.base_pressure_Pa = 240e3;
+  const rollrig::RollingLaw law = rollrig::fit_j2452(ROLLRIG_SOURCE_DIR "/assets/examples/j2452_points.csv", options);
+  REQUIRE(law.coefficients.size() == 5);
+  // the file was made with these: docs/fit_j2452.md
+  const double truth[]{-0.42, 0.93, 0.13, 2.0e-4, 8e-7};
+  for (std::size_t i = 0; i < 5; ++i) {
+    INFO(law.coefficients[i].name);
+    CHECK(law.coefficients[i].low_95 < truth[i]);
+    CHECK(truth[i] < law.coefficients[i].high_95);
+  }
+  const TemporaryFolder folder;
+  rollrig::write_folder(folder.file("fitted"), law.make_files());
+  const std::string co2mpas = rollrig::export_coefficients(folder.file("fitted"), rollrig::CoefficientTarget::kCo2mpas);
+  CHECK_THAT(co2mpas, Contains("\nf0: "));
+  CHECK_THROWS_AS(rollrig::export_coefficients(folder.file("fitted"), rollrig::CoefficientTarget::kTir),
+                  rollrig::InputError);
+  CHECK(rollrig::fit_j1269(ROLLRIG_SOURCE_DIR "/assets/examples/j1269_points.csv", options).coefficients.size() == 4);
+}
+
 TEST_CASE("assets are listed, found and described", "[fast]") {
   CHECK(rollrig::list_scenarios().size() > 10);
   CHECK(rollrig::list_effects().size() > 20);
