@@ -48,7 +48,7 @@ Model::Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base
       base_(std::move(base)),
       prior_factor_(estimation::calc_prior_factor(base_)),
       hypothesis_(std::move(hypothesis)) {
-  for (const estimation::FreeParameter& base : base_) base_keys_.push_back(read_machine_key(base.key));
+  for (const estimation::FreeParameter& parameter : base_) base_keys_.push_back(read_machine_key(parameter.key));
   for (std::size_t t = 0; t < hypothesis_.terms.size(); ++t) {
     const auto& [term, sign] = hypothesis_.terms[t];
     for (std::size_t i = 0; i < term->parameters().size(); ++i) {
