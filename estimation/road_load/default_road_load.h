@@ -25,8 +25,8 @@ struct RrcClass {
 };
 
 /// Classes of tires of C1, C2 or C3, by rising rolling resistance.
-/// Source    limits: Regulation (EC) 1222/2009, Annex I Part A (legislation.gov.uk/eur/2009/1222/annex/I/part/1). Values:
-///           UN GTR 15 Annex 4, table of 4.2.2.1 (not read there): the middle of the limits, to one decimal
+/// Source    limits: Regulation (EC) 1222/2009, Annex I Part A (legislation.gov.uk/eur/2009/1222/annex/I/part/1).
+///           Values: UN GTR 15 Annex 4, table of 4.2.2.1 (not read there): the middle of the limits, to one decimal
 /// Errors    InputError: another class of tires
 /// Checked   tests/estimation/default_road_load_test.cpp
 const std::vector<RrcClass>& list_rrc_classes(const std::string& tire_class);
