@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <optional>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -86,14 +87,21 @@ std::string make_row(const std::vector<ReportCell>& row, const std::vector<bool>
 }
 
 std::string make_html_of(const ReportTable& table) {
+  for (const auto& row : table.rows) {
+    if (row.size() != table.columns.size()) throw std::logic_error("a row of '" + table.title + "' is no row of it");
+  }
   const std::vector<bool> numbers = find_numbers(table);
   std::string html = "<table>\n";
   if (!table.title.empty()) html += fmt::format("<caption>{}</caption>\n", escape_html(table.title));
-  html += "<thead><tr>";
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    html += make_cell_html("th", {table.columns[i]}, numbers[i] ? "right" : "");
+  const auto is_empty = [](const std::string& column) { return column.empty(); };
+  if (!std::all_of(table.columns.begin(), table.columns.end(), is_empty)) {
+    html += "<thead><tr>";
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      html += make_cell_html("th", {table.columns[i]}, numbers[i] ? "right" : "");
+    }
+    html += "</tr></thead>\n";
   }
-  html += "</tr></thead>\n<tbody>\n";
+  html += "<tbody>\n";
   const std::size_t first_total = table.rows.size() - std::min(table.totals, table.rows.size());
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     html += make_row(table.rows[i], numbers, i < first_total ? "" : i == first_total ? "total first" : "total");
@@ -210,6 +218,7 @@ ReportField make_blank(const std::string& label) { return {label, {}}; }
 
 ReportTable make_report_table(const Table& table) {
   ReportTable made{table.title, table.columns, {}, 0};
+  if (made.columns.empty() && !table.rows.empty()) made.columns.resize(table.rows.front().size());
   for (const auto& row : table.rows) {
     made.rows.emplace_back();
     for (const std::string& cell : row) made.rows.back().push_back({cell});

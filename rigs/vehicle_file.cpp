@@ -182,12 +182,24 @@ VehicleFile read_vehicle(const ConfigTable& config) {
   return vehicle;
 }
 
+namespace {
+
+/// Of the two keys that say what a charge takes, the one that decides.
+std::string write_battery(const VehicleBattery& battery) {
+  std::string text = write_group("battery", battery);
+  if (battery.recharge_J <= 0.0) return text;
+  const std::size_t line = text.find("charging_efficiency");
+  return text.erase(line, text.find('\n', line) + 1 - line);
+}
+
+}  // namespace
+
 std::string write_vehicle(const VehicleFile& vehicle) {
   std::string text = fmt::format("format = \"rollrig-vehicle/2\"\nname = \"{}\"\n", vehicle.name);
   text += write_fields(vehicle.body, &vehicle.uncertainties);
   text += fmt::format("center_of_gravity_height_m = {:.10g}\n", vehicle.center_of_gravity_height_m);
   text += write_powertrain(vehicle.powertrain);
-  if (vehicle.battery.has_value()) text += write_group("battery", *vehicle.battery);
+  if (vehicle.battery.has_value()) text += write_battery(*vehicle.battery);
   if (vehicle.road_load.has_value()) text += write_group("road_load", *vehicle.road_load);
   for (const VehicleAxle& axle : vehicle.axles) {
     text += fmt::format("\n[[axle]]\nname = \"{}\"\n", axle.name) + write_fields(axle);

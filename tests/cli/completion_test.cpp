@@ -46,7 +46,7 @@ TEST_CASE("bash completes values: of options, with = or without, and of lists", 
   CHECK(complete("run --rig drum_2") == "drum_2m ");
   CHECK(complete("run drive --vehicle so") == "source_car ");
   CHECK(complete("run drive --set program = ud") == "udds ");
-  CHECK(complete("run drive_cycle --set cycle=w") == "cycle=wltc_class3b ");
+  CHECK(complete("run drive_cycle --set cycle=w") == "wltc_class3b ");
   CHECK(complete("run drive --set prog") == "program=hwfet program=udds program=us06 program=wltc_class3b ");
   CHECK(complete("describe hw") == "hwfet ");
   CHECK(complete("list ve") == "vehicles ");

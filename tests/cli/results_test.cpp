@@ -21,19 +21,20 @@ using rollrig::tests::TemporaryFolder;
 
 namespace {
 
-/// What a run has to be told beside its tire, so that it is short and has all that the scenario can find. A drum of
+/// What a run has to be told, so that it is short and has all that the scenario can find. A drum of
 /// 1.707 m, where torque and force are not the same number.
 std::string settings_of(const std::string& scenario) {
   const std::string rows = "--set 'program=" ROLLRIG_SOURCE_DIR "/assets/regression/";
   const std::string drum = "--set rig.drum.diameter_m=1.707 ";
-  if (scenario == "sae_j1634") return "--set wheels=1 --set mid_min=5 --set end_min=5";
-  if (scenario == "drive_cycle") return "--set wheels=1 --set repetitions=2 --set cycle=hwfet";
-  if (scenario == "coastdown" || scenario == "dyno_setting") return "--set warm_up_min=1";
-  if (scenario == "follow_roller") return rows + "follow_roller_a50.csv'";
-  if (scenario == "follow_road") return rows + "follow_road_a50.csv'";
-  if (scenario == "follow_drum") return drum + rows + "follow_drum_a50.csv'";
-  if (scenario == "iso_28580") return drum + "--set measurement_cycles=1";
-  return drum;
+  const std::string car = "--tire a50 --vehicle volvo_ex30 --rig road ";  // has a battery
+  if (scenario == "sae_j1634") return car + "--set mid_min=5 --set end_min=5";
+  if (scenario == "drive_cycle") return car + "--set wheels=1 --set repetitions=2 --set cycle=hwfet";
+  if (scenario == "coastdown" || scenario == "dyno_setting") return "--tire a50 --set warm_up_min=1";
+  if (scenario == "follow_roller") return "--tire a50 " + rows + "follow_roller_a50.csv'";
+  if (scenario == "follow_road") return "--tire a50 " + rows + "follow_road_a50.csv'";
+  if (scenario == "follow_drum") return "--tire a50 " + drum + rows + "follow_drum_a50.csv'";
+  if (scenario == "iso_28580") return drum + "--tire c1_205_55r16 --set measurement_cycles=1";  // has a label
+  return "--tire a50 " + drum;
 }
 
 /// Keys of a result, those of a list's records as "cycles[].load_N".
@@ -216,7 +217,7 @@ TEST_CASE("JSON, terminal, page, reference and sweep agree on every scenario's r
     const std::string name = scenario["name"];
     DYNAMIC_SECTION(name) {
       const TemporaryFolder folder;
-      const std::string options = name + " --tire a50 --fidelity quasi_static " + settings_of(name);
+      const std::string options = name + " --fidelity quasi_static " + settings_of(name);
       const auto run = run_program("run " + options + " --json run.json --html run.html", folder.path());
       INFO(run.err << run.out);
       REQUIRE(run.status == 0);

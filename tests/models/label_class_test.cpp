@@ -63,7 +63,7 @@ TEST_CASE("probabilities of the classes are what random errors give", "[fast]") 
   }
 }
 
-TEST_CASE("without uncertainty one class is certain; at a bound two are equally likely", "[fast]") {
+TEST_CASE("without uncertainty one class is certain, at a bound two are equally likely", "[fast]") {
   const auto certain = models::calc_label_probabilities(TireClass::kC2, 6.0e-3, 0.0);
   CHECK(certain[1] == 1.0);
   const auto at_bound = models::calc_label_probabilities(TireClass::kC2, 6.75e-3, 0.05e-3);

@@ -40,7 +40,8 @@ double measure_ambient_slope_per_K(const std::string& tire, double warm_up_min) 
   return (rrc_at("ambient_degC=20") - rrc_at("ambient_degC=30")) / (10.0 * rrc_at("ambient_degC=25"));
 }
 
-/// A of a coastdown on the road, of a car or, with a tire that bears more, a truck.
+/// A of a coastdown on the road, of a car or, with a tire that bears more, a truck. The wheels of a van are heavier
+/// than those of the car.
 double measure_road_A_N(const std::string& tire, double air_degC) {
   ConfigTable document = scenarios::make_run_document("coastdown");
   const bool is_truck = tests::read_asset_tire(tire).iso_28580->load_N > 15000.0;
@@ -51,6 +52,7 @@ double measure_road_A_N(const std::string& tire, double air_degC) {
     set_config_value(document, key, value, "test");
   }
   scenarios::set_run_value(document, make_setting("ambient_degC", air_degC));
+  if (!is_truck) scenarios::set_run_value(document, "vehicle.rotating_mass_kg=80");
   return tests::number(scenarios::run_scenario(scenarios::read_run_spec(document, ""), {}), "A_N");
 }
 
@@ -83,10 +85,13 @@ TEST_CASE("shipped bounded tires: at constant temperature no loss falls with spe
   }
 }
 
-TEST_CASE("shipped bounded tires: the steady loss at -20 degC is at most 1.45 times that at 25 degC", "[fast]") {
+TEST_CASE("shipped bounded tires: the steady loss at -20 degC is at most 1.45 times that at 25 degC (C2: 1.59)",
+          "[fast]") {
   // a40 at 120 km/h: what its source measured. §4.4.3 has its RRc fall by 1 N/kN for 6 degC, at least 0.020/degC, over
   // temperatures of the tire that differ by more than those of the bound, 1.45 = exp(0.020 * 18.6).
+  // C2: the same temperatures with K_t = 0.010 in place of 0.008 (UN R117, Annex 6, 6.2), exp(1.25 * 0.020 * 18.6).
   const auto find_highest_ratio = [](const std::string& name, const std::string& speed) {
+    if (name == "c2_215_65r16c") return 1.59;
     return name == "a40" && speed == "speed_km_h=120" ? 1.70 : 1.45;
   };
   for (const std::string& name : list_bounded_tires()) {

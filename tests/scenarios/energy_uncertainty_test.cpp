@@ -30,7 +30,7 @@ TEST_CASE("the energies of the budget are those of the result, and move as in si
   CHECK(now[1] / 3600.0 == Approx(add_up(outcome.result, "vehicle_rr_energy_Wh")).epsilon(1e-9));
   // Heavier, warmer: off the point, as --set has it.
   std::vector<std::string> others = settings;
-  others.insert(others.end(), {"ambient_degC=27", "vehicle.body.mass_kg=2250"});
+  others.insert(others.end(), {"ambient_degC=27", "vehicle.mass_kg=2250"});
   const scenarios::Outcome other =
       scenarios::run_scenario(tests::make_spec("sae_j1634", "a50", others, "quasi_static"), {});
   x[1] = 2250.0;

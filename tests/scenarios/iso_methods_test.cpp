@@ -67,10 +67,10 @@ TEST_CASE("methods agree off the reference conditions: smaller drum, other speed
   CHECK(read_method_N(outcome, "force") == Approx(torque_N).epsilon(1e-6));
   CHECK(read_method_N(outcome, "power") == Approx(torque_N).epsilon(1e-6));
   CHECK(read_method_N(outcome, "deceleration") == Approx(torque_N).epsilon(kCoastTolerance));
-  // the loss of the rig is in no method
+  // the loss of the rig is in no method; a coast ends sooner with it, and the tire of the skim test is warmer
   const auto usual = run_coasts("c1_205_55r16", {"rig.drum.diameter_m=1.7", "speed_km_h=60"});
   for (const char* method : {"torque", "force", "power"}) {
-    CHECK(read_method_N(outcome, method) == Approx(read_method_N(usual, method)).epsilon(1e-6));
+    CHECK(read_method_N(outcome, method) == Approx(read_method_N(usual, method)).epsilon(1e-4));
   }
   CHECK(read_method_N(outcome, "deceleration") ==
         Approx(read_method_N(usual, "deceleration")).epsilon(kCoastTolerance));
@@ -109,8 +109,9 @@ TEST_CASE("a drum that is heavier than its file says reads too little in the dec
   const double wheel_kg = 1.1 / std::pow(0.316 - 4825.0 / 210000.0, 2.0);
   const double expected = (450.0 + wheel_kg) / (450.0 * 1.05 + wheel_kg);
   CHECK(read_method_N(wrong, "deceleration") == Approx(expected * read_method_N(exact, "deceleration")).epsilon(1e-3));
+  // a coast takes longer, so that the tire of the skim test is colder
   for (const char* method : {"torque", "force", "power"}) {
-    CHECK(read_method_N(wrong, method) == Approx(read_method_N(exact, method)).epsilon(1e-5));
+    CHECK(read_method_N(wrong, method) == Approx(read_method_N(exact, method)).epsilon(1e-4));
   }
 }
 
@@ -121,7 +122,7 @@ TEST_CASE("a coast with too few samples fails with a reason", "[fast]") {
   CHECK_THROWS_AS(scenarios::run_scenario(spec, {}), RunFailure);
 }
 
-TEST_CASE("the test takes load, pressure, speed, soak, warm-up and coefficient by class; settings win", "[fast]") {
+TEST_CASE("the test takes load, pressure, speed, soak, warm-up and coefficient by class, settings win", "[fast]") {
   const auto truck = run("iso_28580", "c3_315_80r22_5");
   CHECK(number(truck, "speed_km_h") == Approx(80.0));
   CHECK(truck.settings["soak_h"] == 6.0);

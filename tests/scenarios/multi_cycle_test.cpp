@@ -112,7 +112,7 @@ TEST_CASE("the range by phase scaling is that of a battery driven empty, cycle b
   CHECK(usable_J / (0.25 * (cold_J + 3.0 * warm_J) / cycle_m) < 0.97 * driven_m);
 }
 
-TEST_CASE("city and highway combine as in the example of the regulation; 33.7 kWh for 100 miles are 100 MPGe",
+TEST_CASE("city and highway combine as in the example of the regulation, 33.7 kWh for 100 miles are 100 MPGe",
           "[fast]") {
   // 10 CFR 474, appendix, example 1: 265 and 220 Wh/mi, 244.75 combined.
   const CycleEconomy city{265.0 * kWhPerMile, 4e5, 300.0 * kWhPerMile};
@@ -145,7 +145,7 @@ TEST_CASE("where only the tires warm up they explain the first section, beside a
   CHECK(beside_driveline < 80.0);
 }
 
-TEST_CASE("without a battery the test takes all of it; with one, its own energy scales the phases", "[fast]") {
+TEST_CASE("without a battery the test takes all of it, with one, its own energy scales the phases", "[fast]") {
   scenarios::RunSpec spec = make_j1634({"mid_min=5", "end_min=60"});
   const Json without = scenarios::run_scenario(spec, {}).result;
   double all_Wh = 0.0;
@@ -234,10 +234,17 @@ TEST_CASE("other consumers take their power for as long as a section lasts, and 
 TEST_CASE("a drive beyond the map of the powertrain is warned of", "[fast]") {
   scenarios::RunSpec spec = tests::make_spec("drive_cycle", "a50", {"cycle=us06"}, "quasi_static");
   spec.vehicle->powertrain.map = make_even_map(0.8);
-  CHECK(scenarios::run_scenario(spec, {}).warnings.empty());
+  const auto list_warnings = [&spec] {
+    std::vector<std::string> of_map;
+    for (const std::string& warning : scenarios::run_scenario(spec, {}).warnings) {
+      if (warning.find("map of the powertrain") != std::string::npos) of_map.push_back(warning);
+    }
+    return of_map;
+  };
+  CHECK(list_warnings().empty());
   spec.vehicle->powertrain.map->speeds_m_s = {0.0, 10.0, 30.0};
   spec.vehicle->powertrain.map->powers_W = {-20e3, 0.0, 20e3};
-  const std::vector<std::string> warnings = scenarios::run_scenario(spec, {}).warnings;
+  const std::vector<std::string> warnings = list_warnings();
   REQUIRE(warnings.size() == 2);
   CHECK(warnings[0].find("129.2 km/h") != std::string::npos);
   CHECK(warnings[1].find("20.0 kW") != std::string::npos);
