@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report/blocks.h"
 
 namespace rollrig::report {
@@ -75,6 +77,14 @@ Block make_skim_line(const Json& points) {
                      "Where the line meets load zero is the loss of the rig alone.");
 }
 
+/// Whether all rows have a number; a drive with the measured road load of its vehicle has no loss of its tires.
+bool has_numbers(const Json& rows, const char* key) {
+  return std::all_of(rows.begin(), rows.end(), [key](const Json& row) {
+    const auto at = row.find(key);
+    return at != row.end() && at->is_number();
+  });
+}
+
 }  // namespace
 
 Section make_run_figures(const Json& result) {
@@ -84,8 +94,9 @@ Section make_run_figures(const Json& result) {
     if (at != result.end() && at->is_array() && !at->empty()) section.blocks.push_back(make(*at));
   };
   if (result.contains("sections")) section.title = "Section by section";
-  add("sections", make_section_energies);
-  add("sections", make_section_temperatures);
+  const Json sections = result.value("sections", Json::array());
+  if (has_numbers(sections, "difference_percent")) add("sections", make_section_energies);
+  if (has_numbers(sections, "temperature_start_degC")) add("sections", make_section_temperatures);
   if (result.contains("cycles") && result["cycles"].size() > 1) {
     add("cycles", make_cycle_coefficients);
     add("cycles", make_cycle_forces);

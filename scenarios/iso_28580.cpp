@@ -130,10 +130,9 @@ struct Results {
   }
 
   void visit_label_lines(ResultSheet& visit) const {
-    if (label_probability.has_value()) {
-      visit(JointLine{"EU label class", "{label_class} (probability {label_probability})"});
-    } else if (label_class.has_value()) {
+    if (label_class.has_value()) {
       visit(JointLine{"EU label class", "{label_class}"});
+      if (label_probability.has_value()) visit(JointLine{"  its probability", "{label_probability}"});
     }
     visit(JointLine{"Stage of UN R117 that is met", "{approval_stage}"});
     visit(Remark{"EU label class"}, why_no_label);
