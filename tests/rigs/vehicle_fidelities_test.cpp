@@ -182,8 +182,7 @@ TEST_CASE("they agree on a single cycle, with a map of the powertrain", "[slow]"
     (multibody ? pair.multibody : pair.quasi_static) = scenarios::run_scenario(spec, {});
   }
   compare_liners(pair);
-  compare_loss_forces(pair);
-  compare_sections(pair, 3e-4, 3e-4);
+  compare_sections(pair, 3e-4, 3e-4);  // the speed is never held, so that there are no forces to compare
 }
 
 TEST_CASE("they agree on the whole vehicle", "[slow]") { compare_j1634({"wheels=4", "variant=source"}); }
