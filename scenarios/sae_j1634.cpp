@@ -79,7 +79,7 @@ struct Results {
     visit(Remark{"Load of the tire"}, show_number("load_N", ".0f", load_N));
     visit(Remark{"Counted above"}, show_number("speed_km_h", ".0f", count_from_m_s));
     visit(Result{"iso_rrc_true_N_per_kN", "ISO coefficient", ".3f",
-                 "of the tire's file, with the loss that its skim test subtracted; null where it has none"},
+                 "of the tire's file, with the loss that its skim test subtracted; empty where it has none"},
           iso_rrc);
     economy.visit(visit);
     visit(ResultList{"sections", "Rolling resistance of one tire, by model and by ISO coefficient; of all tires",

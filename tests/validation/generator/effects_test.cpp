@@ -214,7 +214,7 @@ TEST_CASE("a drum of another diameter changes the torque as its lever does", "[s
   const auto forms = list_forms();
   for (const std::string& form : forms.at("drum_diameter")) {
     const GeneratedSet made = make(kDrumDiameter.front(), form, "2");
-    const std::vector<double>& without_Nm = made.counterfactual.runs.front().column({"drum_torque_Nm", "Nm"});
+    const std::vector<double>& without_Nm = made.counterfactual.runs.front().columns.at("drum_torque_Nm");
     const std::vector<double> change_Nm = find_difference(made, 0, "drum_torque_Nm");
     // At steady speed, 20 min on: 2 % by the lever, a quarter of a percent less by the curvature, and by the speed less
     // than 4 % of what goes with its square.
