@@ -52,7 +52,7 @@ struct RepeatScatter {
 ///           first order Sxx is larger by (p - 1) sd_x^2, and 2 sd_x^2/Sxx comes of how both vary together
 /// Validity  errors of x are small beside the range of x: attenuation far below 1. s is the larger
 ///           one, since p - 2 is three for five tires, and chance could make s_r too small
-/// Source    Draper and Smith, Applied Regression Analysis; Fuller, Measurement Error Models, section 1.1
+/// Source    textbook formulas, as in Draper and Smith, Applied Regression Analysis; the book was not read
 ///           (attenuation). Second-hand
 /// Errors    std::invalid_argument: fewer than three points, or all of one x
 /// Checked   tests/estimation/alignment_test.cpp

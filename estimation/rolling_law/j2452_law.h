@@ -46,7 +46,7 @@ SpeedMoments mix_moments(const SpeedMoments& first, double weight, const SpeedMo
 double calc_mean_force_N(const J2452Law& law, double pressure_Pa, double load_N, const SpeedMoments& moments);
 
 /// Share of the urban cycle in the combined one (UDDS 0.55, HWFET 0.45).
-/// Source    40 CFR 600.210, weights of combined fuel economy; that SMERF uses them is second-hand
+/// Source    second-hand: 40 CFR 600.210 (not read), weights of combined fuel economy, which SMERF is said to use
 constexpr double kUrbanShare = 0.55;
 
 }  // namespace rollrig::estimation

@@ -24,7 +24,7 @@ struct FittedPoint {
 /// Equation  F = [(S - S_p) / (d - d_p)] / (S_p / d_p); p = P(F(d - d_p, d_p) > F)
 /// Symbols   S, d sum of squared residuals and degrees of freedom; S_p, d_p those of repeated points about their means
 /// Validity  normal errors of one standard deviation
-/// Source    Draper and Smith, Applied Regression Analysis, 3rd ed. (1998), 2.1
+/// Source    textbook formula, as in Draper and Smith, Applied Regression Analysis; the book was not read
 struct LackOfFit {
   double pure_error_sd_N = 0.0;
   int pure_error_freedom = 0;
