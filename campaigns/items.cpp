@@ -186,7 +186,7 @@ class ResultsFile::Progress {
 ResultsFile::ResultsFile(const std::string& path, const CampaignFolder& folder)
     : store_(path, folder.definition), progress_(std::make_unique<Progress>(progress_file_of(path))) {
   store_.list_items([this](std::size_t, bool has_failed) { tally_.add(has_failed); });
-  progress_->write(tally_);
+  if (tally_.done > 0) progress_->write(tally_);  // else there is nothing to say yet
 }
 
 ResultsFile::~ResultsFile() = default;

@@ -155,11 +155,16 @@ struct Store::Database {
 
 Store::Store(const std::string& path, const std::string& definition) {
   with_file(path, kOnePartEach, [&] {
+    const bool is_new = !is_there(path);
     database_ =
         std::make_unique<Database>(Database{path, open_alone(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)});
     SQLite::Database& file = database_->file;
-    file.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
+    // A file without items is nothing that a loss of power could destroy: making it need not wait for the disk.
+    file.exec(is_new ? "PRAGMA synchronous = OFF" : "PRAGMA synchronous = NORMAL");
+    file.exec("PRAGMA journal_mode = WAL");
     if (!has_tables(file, path, definition)) make_tables(file, definition);
+    file.exec("PRAGMA synchronous = NORMAL");
+    database_->next_sync = std::chrono::steady_clock::now() + kBetweenSyncs;
     note_as_read(path);  // which it could not be before it was made
     // An item that another file had, and that was carried out again, has the same record.
     database_->insert =
