@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "api/watched_items.h"
+#include "api/report_files.h"
 #include "estimation/road_load/checked_road_load.h"
 #include "estimation/road_load/road_load_report.h"
 #include "estimation/road_load/road_load_uncertainty.h"
@@ -96,14 +96,8 @@ RoadLoadFit fit_file(const std::string& path, CoastdownFile& file, const RoadLoa
   }
 }
 
-/// The files that were read, as a report lists them.
-std::vector<report::ReportFile> list_report_files(const ReadRecorder& recorder) {
-  std::vector<report::ReportFile> files;
-  for (const CampaignFile& file : hash_files(recorder.list_files())) {
-    const bool is_table = std::filesystem::path(file.path).extension() == ".csv";
-    files.push_back({is_table ? "coastdowns" : "other file", file.path, file.sha256});
-  }
-  return files;
+std::string find_coastdown_role(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".csv" ? "coastdowns" : "other file";
 }
 
 /// Adds the uncertainty to the result that is there.
@@ -148,7 +142,7 @@ RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
   result.make_page = [file, options, fit, checks] {
     return report::make_html(report::make_road_load_page(*file, options, *fit, checks));
   };
-  result.make_test_report = [file, json = std::move(json), files = list_report_files(recorder)] {
+  result.make_test_report = [file, json = std::move(json), files = list_report_files(recorder, &find_coastdown_role)] {
     return report::make_report_html(report::make_road_load_report(*file, json, files), report::find_report_date());
   };
   return result;

@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
+#include <filesystem>
 
+#include "api/report_files.h"
 #include "estimation/rolling_law/rolling_output.h"
 #include "exports/coefficients.h"
 #include "report/rolling_law_page.h"
@@ -10,6 +11,7 @@
 #include "scenarios/common/speed_trace.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 
 namespace rollrig {
 namespace {
@@ -20,6 +22,10 @@ using estimation::RollingTest;
 RollingTest read_points(const std::string& path, const RollingLawOptions& options) {
   RollingTest test = estimation::read_rolling_test(
       path, options.warm_pressure ? estimation::PressureTaken::kWarm : estimation::PressureTaken::kSet);
+  if (options.warm_pressure && !test.is_simulated) {
+    throw InputError({"--warm-pressure is for results: a file of points has one pressure", path, 0, "--warm-pressure",
+                      "", "no --warm-pressure, or the folder or result.json of a run", ""});
+  }
   if (options.maximum_load_N.has_value()) test.maximum_load_N = options.maximum_load_N;
   if (options.base_pressure_Pa.has_value()) test.base_pressure_Pa = options.base_pressure_Pa;
   return test;
@@ -43,8 +49,7 @@ std::optional<estimation::ReferenceCondition> find_reference(RollingTest& test) 
   }
   test.warnings.push_back(
       "no standard reference condition: the file does not say the tire's maximum load and base pressure; give both "
-      "with "
-      "--maximum-load and --base-pressure");
+      "with --maximum-load and --base-pressure");
   return std::nullopt;
 }
 
@@ -56,15 +61,19 @@ bool is_covered(const RollingTest& test, double estimation::RollingPoint::*membe
   return (*low).*member <= value && value <= (*high).*member;
 }
 
-/// A reference outside of the points is an extrapolation.
-void warn_of_reference(const estimation::ReferenceCondition& at, RollingTest& test) {
-  if (is_covered(test, &estimation::RollingPoint::load_N, at.load_N) &&
-      is_covered(test, &estimation::RollingPoint::pressure_Pa, at.pressure_Pa)) {
-    return;
+/// A reference outside of the points is an extrapolation. A law of one speed has no speed in it.
+void warn_of_reference(const estimation::ReferenceCondition& at, bool has_speed, RollingTest& test) {
+  if (!is_covered(test, &estimation::RollingPoint::load_N, at.load_N) ||
+      !is_covered(test, &estimation::RollingPoint::pressure_Pa, at.pressure_Pa)) {
+    test.warnings.push_back(fmt::format(
+        "the standard reference condition ({:.0f} N, {:.0f} kPa) lies outside of the points: the law is extrapolated",
+        at.load_N, at.pressure_Pa / 1e3));
   }
-  test.warnings.push_back(fmt::format(
-      "the standard reference condition ({:.0f} N, {:.0f} kPa) lies outside of the points: the law is extrapolated",
-      at.load_N, at.pressure_Pa / 1e3));
+  if (has_speed && !is_covered(test, &estimation::RollingPoint::speed_m_s, at.speed_m_s)) {
+    test.warnings.push_back(
+        fmt::format("{:.0f} km/h lies outside of the speeds of the points: the law is extrapolated. Are they in km/h?",
+                    kKmhPerMs * at.speed_m_s));
+  }
 }
 
 estimation::CycleForces read_cycles(const RollingLawOptions& options) {
@@ -75,60 +84,68 @@ estimation::CycleForces read_cycles(const RollingLawOptions& options) {
   return {options.urban_cycle, options.highway_cycle, read(options.urban_cycle), read(options.highway_cycle)};
 }
 
-std::string start_text(const char* command, const RollingTest& test) {
-  return wrap(fmt::format("{}   {}   {}", command, test.path, format_count(test.points.size(), "point")), 0);
-}
-
 std::vector<std::string> join_warnings(const RollingTest& test, const std::vector<std::string>& of_fit) {
   std::vector<std::string> warnings = test.warnings;
   warnings.insert(warnings.end(), of_fit.begin(), of_fit.end());
   return warnings;
 }
 
+std::string find_point_file_role(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".csv" || extension == ".json" ? "points" : "other file";
+}
+
+/// What both fits have in common: numbers, warnings, text, files and the test report.
+template <class Fit>
+RollingLaw make_law(const char* command, const RollingTest& test, const Fit& fit, const std::vector<Table>& tables,
+                    const Json& json, const ReadRecorder& recorder) {
+  RollingLaw law;
+  law.coefficients = fit.coefficients;
+  law.warnings = join_warnings(test, fit.warnings);
+  law.text = wrap(fmt::format("{}   {}   {}", command, test.path, format_count(test.points.size(), "point")), 0) +
+             format_tables(tables) + format_warnings(law.warnings);
+  law.json = to_text(json);
+  law.make_files = [json = law.json, residuals = estimation::write_rolling_residuals(fit.points)] {
+    return FolderFiles{{"fit.json", json}, {"residuals.csv", residuals}};
+  };
+  law.make_test_report = [test, json, files = list_report_files(recorder, &find_point_file_role)] {
+    return report::make_report_html(report::make_rolling_law_report(test, json, files), report::find_report_date());
+  };
+  return law;
+}
+
 }  // namespace
 
 RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options) {
-  const auto test = std::make_shared<RollingTest>(read_points(path, options));
-  const auto fit = std::make_shared<const estimation::J2452Fit>(fit_points(*test, &estimation::fit_j2452));
+  const ReadRecorder recorder;
+  RollingTest test = read_points(path, options);
+  const estimation::J2452Fit fit = fit_points(test, &estimation::fit_j2452);
   std::optional<estimation::J2452Reference> reference;
-  if (const auto at = find_reference(*test)) {
-    warn_of_reference(*at, *test);
-    reference = estimation::evaluate_reference(*fit, *at, read_cycles(options));
+  if (const auto at = find_reference(test)) {
+    warn_of_reference(*at, true, test);
+    reference = estimation::evaluate_reference(fit, *at, read_cycles(options));
   }
-  RollingLaw law;
-  law.coefficients = fit->coefficients;
-  law.warnings = join_warnings(*test, fit->warnings);
-  law.text = start_text("fit j2452", *test) + format_tables(report::make_j2452_tables(*fit, reference)) +
-             format_warnings(law.warnings);
-  law.json = to_text(estimation::make_j2452_json(*test, *fit, reference));
-  law.make_files = [fit, json = law.json] {
-    return FolderFiles{{"fit.json", json}, {"residuals.csv", estimation::write_rolling_residuals(fit->points)}};
-  };
-  law.make_page = [test, fit, reference] { return report::make_html(report::make_j2452_page(*test, *fit, reference)); };
+  RollingLaw law = make_law("fit j2452", test, fit, report::make_j2452_tables(fit, reference),
+                            estimation::make_j2452_json(test, fit, reference), recorder);
+  law.make_page = [test, fit, reference] { return report::make_html(report::make_j2452_page(test, fit, reference)); };
   return law;
 }
 
 RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options, bool proportional) {
   const auto form = proportional ? estimation::MultipointForm::kProportional : estimation::MultipointForm::kBilinear;
-  const auto test = std::make_shared<RollingTest>(read_points(path, options));
-  const auto fit = std::make_shared<const estimation::MultipointFit>(
-      fit_points(*test, [form](const auto& points) { return estimation::fit_multipoint(points, form); }));
+  const ReadRecorder recorder;
+  RollingTest test = read_points(path, options);
+  const estimation::MultipointFit fit =
+      fit_points(test, [form](const auto& points) { return estimation::fit_multipoint(points, form); });
   std::optional<estimation::MultipointReference> reference;
-  if (const auto at = find_reference(*test)) {
-    warn_of_reference(*at, *test);
-    reference = {{at->load_N, at->pressure_Pa, fit->speed_m_s}, fit->estimate_force(at->load_N, at->pressure_Pa)};
+  if (const auto at = find_reference(test)) {
+    warn_of_reference(*at, false, test);
+    reference = {{at->load_N, at->pressure_Pa, fit.speed_m_s}, fit.estimate_force(at->load_N, at->pressure_Pa)};
   }
-  RollingLaw law;
-  law.coefficients = fit->coefficients;
-  law.warnings = join_warnings(*test, fit->warnings);
-  law.text = start_text("fit j1269", *test) + format_tables(report::make_multipoint_tables(*fit, reference)) +
-             format_warnings(law.warnings);
-  law.json = to_text(estimation::make_multipoint_json(*test, *fit, reference));
-  law.make_files = [fit, json = law.json] {
-    return FolderFiles{{"fit.json", json}, {"residuals.csv", estimation::write_rolling_residuals(fit->points)}};
-  };
+  RollingLaw law = make_law("fit j1269", test, fit, report::make_multipoint_tables(fit, reference),
+                            estimation::make_multipoint_json(test, fit, reference), recorder);
   law.make_page = [test, fit, reference] {
-    return report::make_html(report::make_multipoint_page(*test, *fit, reference));
+    return report::make_html(report::make_multipoint_page(test, fit, reference));
   };
   return law;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Statistics of a regression over points, a law of rolling resistance, say.
+/// Statistics of a least-squares fit of a law of rolling resistance.
 
 #include <Eigen/Dense>
 

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
+#include <set>
 
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
@@ -87,6 +89,7 @@ RollingTest read_result_points(const std::string& path, PressureTaken taken) {
   test.base_pressure_Pa = find_result_number(result, "base_pressure_kPa");
   const Json tire = json.value("tire", Json());
   if (tire.is_string()) test.tire = tire.get<std::string>();
+  test.is_simulated = true;
   return test;
 }
 
@@ -111,19 +114,46 @@ RollingTest read_rolling_test(const std::string& path, PressureTaken taken) {
   return test;
 }
 
-std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
+namespace {
+
+/// Points that agree with an earlier one to the last digit.
+std::size_t count_copies(const std::vector<RollingPoint>& points) {
+  std::set<std::array<double, 4>> seen;
+  for (const RollingPoint& point : points) {
+    seen.insert({point.speed_m_s, point.load_N, point.pressure_Pa, point.force_N});
+  }
+  return points.size() - seen.size();
+}
+
+std::optional<std::string> doubt_coefficient(const std::vector<RollingPoint>& points) {
   constexpr double kLeast = 2e-3;  // Assumed: below it is no road tire; the best have 4 N/kN
   constexpr double kMost = 30e-3;  // Assumed: of a cold tire at low pressure
-  if (points.empty()) return {};
   std::vector<double> coefficients;
   for (const RollingPoint& point : points) coefficients.push_back(point.force_N / point.load_N);
   const auto middle = coefficients.begin() + static_cast<std::ptrdiff_t>(coefficients.size() / 2);
   std::nth_element(coefficients.begin(), middle, coefficients.end());
-  if (*middle >= kLeast && *middle <= kMost) return {};
-  return {
-      fmt::format("the median of rolling resistance over load is {:.3g} N/kN, where tires have 4 to 15 N/kN: check "
-                  "that load and rolling resistance are in N",
-                  1e3 * *middle)};
+  if (*middle >= kLeast && *middle <= kMost) return std::nullopt;
+  return fmt::format(
+      "the median of rolling resistance over load is {:.3g} N/kN, where tires have 4 to 15 N/kN: check "
+      "that load and rolling resistance are in N",
+      1e3 * *middle);
+}
+
+}  // namespace
+
+std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
+  constexpr double kMostCopies = 0.2;  // Assumed: of coarsely rounded readings, fewer agree by chance
+  if (points.empty()) return {};
+  std::vector<std::string> doubts;
+  if (const auto doubt = doubt_coefficient(points)) doubts.push_back(*doubt);
+  const std::size_t copies = count_copies(points);
+  if (static_cast<double>(copies) > kMostCopies * static_cast<double>(points.size())) {
+    doubts.push_back(
+        fmt::format("{} of {} points are copies of others: if nobody measured them anew, all standard "
+                    "deviations are too small",
+                    copies, points.size()));
+  }
+  return doubts;
 }
 
 std::size_t count_levels(std::vector<double> values) {

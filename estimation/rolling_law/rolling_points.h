@@ -37,6 +37,7 @@ enum class PressureTaken { kSet, kWarm };
 struct RollingTest {
   std::string path;
   std::string tire;  // empty where the file does not say
+  bool is_simulated = false;
   std::vector<RollingPoint> points;
   std::optional<double> maximum_load_N;
   std::optional<double> base_pressure_Pa;
@@ -50,7 +51,8 @@ struct RollingTest {
 /// Checked  tests/estimation/rolling_law_test.cpp, tests/bad_input
 RollingTest read_rolling_test(const std::string& path, PressureTaken taken = PressureTaken::kSet);
 
-/// Doubts that hold for each of the fits: a coefficient of rolling resistance that no tire has (units mistaken).
+/// Doubts that hold for each of the fits: a coefficient of rolling resistance that no tire has (units mistaken), and
+/// points that are copies of others.
 std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points);
 
 /// How many values are different, where those within 2 % of the least of their group count as one.
