@@ -33,6 +33,7 @@ void fill_numbers(const estimation::AlignmentResult& result, Alignment& alignmen
   alignment.valid_until = estimation::format_day(result.valid_until_s);
   alignment.is_valid = result.is_valid;
   alignment.is_due = !result.due_because.empty();
+  alignment.is_of_network = result.is_of_network;
   alignment.warnings = result.warnings;
 }
 
@@ -73,6 +74,10 @@ std::vector<std::string> list_value_warnings(const AlignedValueInput& input,
                                              const estimation::StoredAlignment& stored) {
   std::vector<std::string> warnings;
   if (!stored.is_valid) warnings.push_back("the alignment is not valid: its own report says why");
+  const std::string on = input.on.empty() ? report::find_report_date() : input.on;
+  if (estimation::read_day_s(on, "--on") > estimation::read_day_s(stored.valid_until, "valid_until")) {
+    warnings.push_back(fmt::format("the alignment was valid until {}, which is before {}", stored.valid_until, on));
+  }
   if (input.rrc_N_per_kN < stored.low_N_per_kN || input.rrc_N_per_kN > stored.high_N_per_kN) {
     warnings.push_back(
         fmt::format("{:.2f} N/kN lies outside the alignment tires, {:.2f} to {:.2f} N/kN: the line is "

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
@@ -7,6 +9,8 @@
 
 namespace rollrig::cli {
 namespace {
+
+constexpr const char* kOfApply = "--rrc, --measurements, --on, --json, --quiet";
 
 struct AlignOptions {
   AlignmentInput input;
@@ -25,20 +29,31 @@ int align_command(const AlignOptions& options) {
 }
 
 int apply_command(const AlignOptions& options) {
-  for (const auto& [option, path] :
+  const AlignmentInput& fit = options.input;
+  for (const auto& [option, value] :
        {std::pair("--out", options.output.folder), std::pair("--html", options.output.html),
-        std::pair("--report", options.output.report)}) {
-    if (!path.empty()) throw usage_error("an aligned value is a text or JSON", option, path, "--json");
+        std::pair("--report", options.output.report), std::pair("--machine", fit.machine),
+        std::pair("--reference-machine", fit.reference_machine), std::pair("--reference-values", fit.reference_values),
+        std::pair("--machine-changed", fit.machine_changed)}) {
+    if (!value.empty()) throw usage_error(fmt::format("--apply does not take {}", option), option, value, kOfApply);
+  }
+  for (const auto& [option, is_given] :
+       {std::pair("--reference", !options.reference.empty()), std::pair("--preliminary", fit.preliminary),
+        std::pair("--first-excluded", fit.first_excluded)}) {
+    if (is_given) throw usage_error(fmt::format("--apply does not take {}", option), option, "", kOfApply);
   }
   Output output(options.output);
-  output.show(apply_alignment(options.value));
+  AlignedValueInput value = options.value;
+  value.on = fit.on;
+  output.show(apply_alignment(value));
   return kDone;
 }
 
 int align_or_apply(const AlignOptions& options) {
   const bool is_value = !options.value.alignment.empty();
   if (is_value == !options.input.file.empty()) {
-    throw usage_error("one thing at a time is done", is_value ? "--apply" : "file", "",
+    throw usage_error(is_value ? "a file to fit and --apply exclude each other" : "nothing to fit or to apply",
+                      is_value ? "--apply" : "file", "",
                       "a CSV file of measurements, or --apply <alignment.json> with --rrc <N/kN>");
   }
   return is_value ? apply_command(options) : align_command(options);
@@ -60,8 +75,9 @@ void add_align_command(CLI::App& app, Action& action) {
       ->type_name("A1 B1");
   command->add_flag("--preliminary", input.preliminary,
                     "Compute an alignment that breaks rules as well; it is not valid");
-  command->add_flag("--keep-first", input.keep_first, "The file has no first measurements, which are left out else");
-  command->add_option("--on", input.on, "Day on which validity is judged [that of the last row]");
+  command->add_flag("--first-excluded", input.first_excluded,
+                    "The file already omits the first measurement of each tire, which is not used");
+  command->add_option("--on", input.on, "Day on which validity is judged [the last of the file; of --apply: today]");
   command->add_option("--machine-changed", input.machine_changed, "Day of the last significant change of the machine");
   CLI::Option* apply = command->add_option("--apply", options->value.alignment, "Alignment (.json) to apply to --rrc");
   CLI::Option* rrc =

@@ -48,14 +48,16 @@ Table make_alignment_overview(const AlignmentFile& file, const AlignmentResult& 
   add("measured", fmt::format("{} to {}", estimation::format_day(file.first_s), estimation::format_day(file.last_s)));
   add("A2, of the machine", show_with_interval(fit.slope, fit.slope_sd(), k));
   add("B2, of the machine", show_with_interval(fit.offset, fit.offset_sd(), k) + " N/kN");
-  if (!file.is_assigned) add("A1, B1 of the reference", fmt::format("{:.4f}, {:.4f} N/kN", line.A1, line.B1));
+  if (!file.is_assigned && result.is_of_network) {
+    add("A1, B1 of the reference", fmt::format("{:.4f}, {:.4f} N/kN", line.A1, line.B1));
+  }
   add("RRC aligned", fmt::format("{:.4f} x RRC measured {} {:.4f} N/kN", line.A1 * line.A2,
                                  line.A1 * line.B2 + line.B1 < 0.0 ? '-' : '+', std::abs(line.A1 * line.B2 + line.B1)));
   add("sigma_m of the machine", show_sigma(result.sigma_m));
-  if (result.sigma_l.has_value()) add("the same of the reference", show_sigma(*result.sigma_l));
+  if (result.sigma_l.has_value()) add("sigma_m of the reference machine", show_sigma(*result.sigma_l));
   add("valid until",
       fmt::format("{}, unless the machine is changed or drifts", estimation::format_day(result.valid_until_s)));
-  add("verdict", result.is_valid ? "valid" : "NOT valid");
+  add("verdict", describe_alignment_verdict(result));
   for (const std::string& reason : result.due_because) add("align again", reason);
   return table;
 }
@@ -152,6 +154,13 @@ Block make_control_chart(const ControlChart& chart) {
 }
 
 }  // namespace
+
+std::string describe_alignment_verdict(const AlignmentResult& result) {
+  std::string verdict =
+      fmt::format("{} on {}", result.is_valid ? "valid" : "NOT valid", estimation::format_day(result.judged_on_s));
+  if (!result.is_of_network) verdict += "; not aligned to the network (A1 and B1 are not given)";
+  return verdict;
+}
 
 std::vector<Table> make_alignment_tables(const AlignmentFile& file, const AlignmentResult& result) {
   std::vector<Table> tables{make_alignment_overview(file, result), make_alignment_tire_table(file, result),

@@ -14,6 +14,9 @@ namespace rollrig::report {
 std::vector<Table> make_alignment_tables(const estimation::AlignmentFile& file,
                                          const estimation::AlignmentResult& result);
 
+/// "valid on 2027-02-08", and what it lacks.
+std::string describe_alignment_verdict(const estimation::AlignmentResult& result);
+
 /// The chart of each control tire and their drift; none where there are no control tires.
 std::vector<Table> make_control_tire_tables(const estimation::AlignmentResult& result);
 

@@ -16,24 +16,26 @@ ReportSection make_alignment_laboratories(const estimation::AlignmentFile& file)
                        named("Reference machine", file.reference_machine), make_blank("Certificate number")}}}};
 }
 
-ReportSection make_alignment_result(const ReportValues& values) {
-  ReportForm form{
-      {values.field("Tire classes", "/classes"),
-       {"A2 of the machine (95 % interval)",
-        {values.number("/line/A2/value", ".4f"), values.number("/line/A2/ci95/0", ".4f"),
-         values.number("/line/A2/ci95/1", ".4f")}},
-       {"B2 of the machine in N/kN (95 % interval)",
-        {values.number("/line/B2_N_per_kN/value", ".4f"), values.number("/line/B2_N_per_kN/ci95/0", ".4f"),
-         values.number("/line/B2_N_per_kN/ci95/1", ".4f")}},
-       {"A1 of the reference machine, B1 in N/kN", {values.number("/A1", ".4f"), values.number("/B1_N_per_kN", ".4f")}},
-       {"sigma_m in N/kN (95 % interval)",
-        {values.number("/sigma_m_N_per_kN/value", ".3f"), values.number("/sigma_m_N_per_kN/ci95/0", ".3f"),
-         values.number("/sigma_m_N_per_kN/ci95/1", ".3f")}},
-       values.field("First measurement", "/first_measurement"),
-       values.field("Last measurement", "/last_measurement"),
-       values.field("Valid until, unless the machine is changed or drifts", "/valid_until"),
-       values.field("Judged on", "/judged_on"),
-       make_field("Verdict", values.json()["valid"].get<bool>() ? "valid" : "NOT valid")}};
+ReportSection make_alignment_result(const estimation::AlignmentResult& result, const ReportValues& values) {
+  ReportForm form{{values.field("Tire classes", "/classes"),
+                   {"A2 of the machine (95 % interval)",
+                    {values.number("/line/A2/value", ".4f"), values.number("/line/A2/ci95/0", ".4f"),
+                     values.number("/line/A2/ci95/1", ".4f")}},
+                   {"B2 of the machine in N/kN (95 % interval)",
+                    {values.number("/line/B2_N_per_kN/value", ".4f"), values.number("/line/B2_N_per_kN/ci95/0", ".4f"),
+                     values.number("/line/B2_N_per_kN/ci95/1", ".4f")}},
+                   result.is_of_network
+                       ? ReportField{"A1 of the reference machine, B1 in N/kN",
+                                     {values.number("/A1", ".4f"), values.number("/B1_N_per_kN", ".4f")}}
+                       : make_blank("A1 of the reference machine, B1 in N/kN"),
+                   {"sigma_m in N/kN (95 % interval)",
+                    {values.number("/sigma_m_N_per_kN/value", ".3f"), values.number("/sigma_m_N_per_kN/ci95/0", ".3f"),
+                     values.number("/sigma_m_N_per_kN/ci95/1", ".3f")}},
+                   values.field("First measurement", "/first_measurement"),
+                   values.field("Last measurement", "/last_measurement"),
+                   values.field("Valid until, unless the machine is changed or drifts", "/valid_until"),
+                   values.field("Judged on", "/judged_on"),
+                   make_field("Verdict", describe_alignment_verdict(result))}};
   for (const Json& reason : values.json()["align_again_because"]) {
     form.fields.push_back(make_field("Align again", reason.get<std::string>()));
   }
@@ -102,7 +104,7 @@ TestReport make_alignment_report(const estimation::AlignmentFile& file, const es
   report.is_simulated = false;
   report.warnings = result.warnings;
   report.sections = {make_alignment_laboratories(file),
-                     make_alignment_result(values),
+                     make_alignment_result(result, values),
                      {"Tires", {make_alignment_tires(values)}},
                      make_alignment_checks(result),
                      make_alignment_uncertainty(result)};

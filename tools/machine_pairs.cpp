@@ -211,8 +211,8 @@ const std::vector<MachineDifference>& list_machine_differences() {
       {"load_record", "load cell", "1 to 5 %, either sign"},
       {"torque_gain", "force cell, gain", "-2 to 2 %"},
       {"load_cross_talk", "force cell, cross-talk of the load", "0.05 to 0.5 mrad, either sign"},
-      {"temperature_probe", "temperature probe", "-2 to 2 K of the air that is recorded"},
-      {"drum_diameter", "drum diameter", "1.707 m for 2 m; exponent of curvature 0.6 to 1.4"},
+      {"temperature_probe", "temperature probe", "error of -2 to 2 K of the recorded air temperature"},
+      {"drum_diameter", "drum diameter", "1.707 m instead of 2 m; curvature exponent of the tires 0.6 to 1.4"},
       {"texture", "texture", "2 to 8 % more loss, 0.5 % from tire to tire"},
       {"speed_record", "speed", "1 to 10 %, either sign"}};
   return differences;
@@ -262,8 +262,10 @@ double find_share_within(const std::vector<MachinePair>& pairs, double limit_N_p
 
 std::string make_pair_table(const std::vector<MachinePair>& pairs) {
   std::string table =
-      "| difference | size | pairs | differ before, 95 % | differ aligned, 95 % | within 0.1 N/kN | within its own U | "
-      "lack of fit seen |\n|---|---|---|---|---|---|---|---|\n";
+      "| difference | size | pairs | 95th percentile of the absolute difference before | 95th percentile of the "
+      "absolute difference after "
+      "| within 0.1 N/kN | within expanded uncertainty U (95 %) | lack of fit found "
+      "|\n|---|---|---|---|---|---|---|---|\n";
   const auto add_row = [&table](const std::string& title, const std::string& drawn,
                                 const std::vector<MachinePair>& of_row) {
     if (of_row.empty()) return;

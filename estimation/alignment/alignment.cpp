@@ -94,19 +94,20 @@ void add_rules(const AlignmentFile& file, AlignmentResult& result) {
   const AlignmentRules& rules = file.rules;
   const double range = calc_range(result);
   result.checks.push_back({"alignment tires", fmt::format("{}", file.tires.size()),
-                           fmt::format(">= {}", rules.least_tires), kSection1, file.tires.size() >= rules.least_tires});
+                           fmt::format(">= {}", rules.least_tires), kSection1, file.tires.size() >= rules.least_tires,
+                           true, true});
   result.checks.push_back({"range of RRC, before and after", fmt::format("{:.2f} N/kN", range),
                            fmt::format(">= {:g} N/kN ({})", rules.least_range_N_per_kN, rules.classes), kSection2,
-                           range >= rules.least_range_N_per_kN});
+                           range >= rules.least_range_N_per_kN, true, true});
   const std::size_t kept = count_fewest(file, &AlignmentTire::candidate);
-  result.checks.push_back({"measurements of each tire that are used", fmt::format("{} or more", kept),
+  result.checks.push_back({"measurements of each tire that are used", fmt::format("{}", kept),
                            fmt::format(">= {}, after the first", rules.measurements - 1), kSection5,
-                           kept >= rules.measurements - 1});
+                           kept >= rules.measurements - 1, true, true});
   if (result.sigma_l.has_value()) {
     const std::size_t of_reference = count_fewest(file, &AlignmentTire::reference);
-    result.checks.push_back({"the same of the reference machine", fmt::format("{} or more", of_reference),
+    result.checks.push_back({"measurements of each tire, reference machine", fmt::format("{}", of_reference),
                              fmt::format(">= {}, after the first", rules.measurements - 1), kSection5,
-                             of_reference >= rules.measurements - 1});
+                             of_reference >= rules.measurements - 1, true, true});
   }
   result.needed_measurements = calc_measurements(rules, result.sigma_m.sd);
   const bool is_repeatable = result.sigma_m.sd <= rules.sigma_m_N_per_kN;
@@ -130,8 +131,9 @@ void add_rules(const AlignmentFile& file, AlignmentResult& result) {
 /// Refuses what is no alignment.
 void require_rules(const AlignmentFile& file, const std::vector<AlignmentCheck>& checks) {
   for (const AlignmentCheck& check : checks) {
-    if (check.is_met || check.name == "sigma_m" || check.name == "candidate before reference") continue;
-    throw InputError({fmt::format("this is no alignment by the rules: {}", check.name), file.path, 0, "", check.found,
+    if (check.is_met || !check.stops_fit) continue;
+    throw InputError({fmt::format("these measurements do not make an alignment: {}", check.name), file.path, 0, "",
+                      check.found,
                       fmt::format("{} ({}); --preliminary to compute it all the same", check.limit, check.source), ""});
   }
 }
@@ -194,6 +196,10 @@ void add_monitoring(const AlignmentFile& file, AlignmentResult& result) {
 void judge_validity(const AlignmentFile& file, const AlignmentInput& input, AlignmentResult& result) {
   result.valid_until_s = add_years(file.last_s, file.rules.years_valid);
   result.judged_on_s = input.on.empty() ? file.newest_s : read_day_s(input.on, "--on");
+  if (format_day(result.judged_on_s) < format_day(file.last_s)) {
+    throw InputError({"validity is judged on a day before the last measurement of the alignment", "command line", 0,
+                      "--on", input.on, fmt::format("{} or later", format_day(file.last_s)), ""});
+  }
   if (result.judged_on_s > result.valid_until_s) {
     result.due_because.push_back(fmt::format("the alignment was valid until {}", format_day(result.valid_until_s)));
   }
@@ -213,11 +219,25 @@ void judge_validity(const AlignmentFile& file, const AlignmentInput& input, Alig
                                 [](const AlignmentCheck& check) { return check.is_met || !check.is_rule; });
 }
 
-void add_line_warnings(const AlignmentFile& file, const AlignmentInput& input, AlignmentResult& result) {
-  if (!input.reference.has_value() && !file.is_assigned) {
+void require_reference_line(double A1, double B1_N_per_kN) {
+  // Assumed: far beyond the lines of reference laboratories, which are near 1 and 0
+  constexpr double kLeastSlope = 0.5, kMostSlope = 2.0, kMostOffset_N_per_kN = 5.0;
+  if (A1 >= kLeastSlope && A1 <= kMostSlope && std::abs(B1_N_per_kN) <= kMostOffset_N_per_kN) return;
+  throw InputError({"A1 and B1 are no line of a reference laboratory", "command line", 0, "--reference",
+                    fmt::format("{:g} {:g}", A1, B1_N_per_kN),
+                    fmt::format("A1 near 1, {:g} to {:g}, and B1 near 0 N/kN, {:g} to {:g}", kLeastSlope, kMostSlope,
+                                -kMostOffset_N_per_kN, kMostOffset_N_per_kN),
+                    ""});
+}
+
+void add_line_warnings(AlignmentResult& result) {
+  if (!result.is_of_network) {
     result.warnings.push_back(
         "A1 and B1 of the reference laboratory are not given (--reference): the result is aligned "
         "to its machine, not to the network");
+  }
+  if (result.sigma_m.sd <= 0.0) {
+    result.warnings.push_back("all measurements of each tire are equal: a machine repeats no value to the last digit");
   }
   if (std::abs(result.line.A2 - 1.0) > 0.2) {
     result.warnings.push_back(
@@ -240,10 +260,7 @@ AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& i
         {"assigned values of the network are aligned already", "command line", 0, "--reference", "",
          fmt::format("no --reference, or a column {} with values of the reference laboratory", kReferenceColumn), ""});
   }
-  if (input.reference.has_value() && !(input.reference->first > 0.0)) {
-    throw InputError({"A1 is the slope of a reference laboratory", "command line", 0, "--reference",
-                      fmt::format("{:g}", input.reference->first), "A1 > 0, near 1, and B1 in N/kN", ""});
-  }
+  if (input.reference.has_value()) require_reference_line(input.reference->first, input.reference->second);
   if (file.tires.size() < 3) {
     throw InputError(
         {"too few alignment tires", file.path, 0, "tire", format_count(file.tires.size(), "tire"),
@@ -252,13 +269,14 @@ AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& i
   AlignmentResult result;
   fit_machines(file, result);
   result.line = make_line(result, input);
+  result.is_of_network = input.reference.has_value() || file.is_assigned;
   add_rules(file, result);
   if (!input.preliminary) require_rules(file, result.checks);
   add_advice(file, result);
   result.monitoring = watch_control_tires(file.controls);
   add_monitoring(file, result);
   judge_validity(file, input, result);
-  add_line_warnings(file, input, result);
+  add_line_warnings(result);
   return result;
 }
 

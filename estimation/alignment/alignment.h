@@ -25,6 +25,7 @@ struct AlignmentResult {
   double valid_until_s = 0.0;
   double judged_on_s = 0.0;
   bool is_valid = false;
+  bool is_of_network = false;  // A1 and B1 are given, or the values are those of the network
   std::vector<std::string> warnings;
 };
 

@@ -106,9 +106,9 @@ void sort_rows(const std::vector<AlignmentRow>& rows, AlignmentFile& file) {
 }
 
 /// Leaves out the first measurement of each tire, and asks for two that are left.
-void use_last(const AlignmentFile& file, const std::string& tire, const std::string& machine, bool keep_first,
-              TireMeasurements& measured) {
-  if (!keep_first && !measured.all.empty()) measured.all.front().is_used = false;
+void drop_first_measurement(const AlignmentFile& file, const std::string& tire, const std::string& machine,
+                            bool first_excluded, TireMeasurements& measured) {
+  if (!first_excluded && !measured.all.empty()) measured.all.front().is_used = false;
   const std::size_t used = measured.used().size();
   if (used >= 2) return;
   throw InputError({fmt::format("tire '{}' has too few measurements{}", tire,
@@ -116,8 +116,8 @@ void use_last(const AlignmentFile& file, const std::string& tire, const std::str
                     file.path, 0, "tire", format_count(measured.all.size(), "measurement"),
                     fmt::format("{} of each tire, the first of which is not used; at the least {}, for a mean and its "
                                 "scatter{}",
-                                file.rules.measurements, keep_first ? 2 : 3,
-                                keep_first ? "" : " (--keep-first where the file has no first ones)"),
+                                file.rules.measurements, first_excluded ? 2 : 3,
+                                first_excluded ? "" : " (--first-excluded if the file already omits the first ones)"),
                     ""});
 }
 
@@ -205,7 +205,7 @@ void set_reference_values(const CsvTable& table, const std::vector<AlignmentRow>
   file.is_assigned = values.is_assigned;
   for (AlignmentTire& tire : file.tires) {
     if (!tire.reference.all.empty()) {
-      use_last(file, tire.name, file.reference_machine, input.keep_first, tire.reference);
+      drop_first_measurement(file, tire.name, file.reference_machine, input.first_excluded, tire.reference);
       tire.reference_N_per_kN = tire.reference.mean();
     } else if (const auto found = values.by_tire.find(tire.name); found != values.by_tire.end()) {
       tire.reference_N_per_kN = found->second;
@@ -276,7 +276,8 @@ AlignmentFile read_alignment_file(const AlignmentInput& input) {
                       fmt::format("measurements of at least {} alignment tires", file.rules.least_tires), ""});
   }
   set_reference_values(table, rows, input, file);
-  for (AlignmentTire& tire : file.tires) use_last(file, tire.name, file.machine, input.keep_first, tire.candidate);
+  for (AlignmentTire& tire : file.tires)
+    drop_first_measurement(file, tire.name, file.machine, input.first_excluded, tire.candidate);
   std::sort(file.tires.begin(), file.tires.end(),
             [](const auto& a, const auto& b) { return a.candidate.mean() < b.candidate.mean(); });
   set_times(file);

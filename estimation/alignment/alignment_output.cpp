@@ -137,7 +137,9 @@ Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& resul
   Json json = {{"format", kAlignmentFormat}, {"file", file.path}, {"machine", file.machine}};
   if (!file.reference_machine.empty()) json["reference_machine"] = file.reference_machine;
   json["classes"] = file.rules.classes;
-  json["aligned_to"] = file.is_assigned ? "assigned values" : "reference machine, then A1 and B1";
+  json["aligned_to"] = file.is_assigned       ? "assigned values"
+                       : result.is_of_network ? "reference machine, then A1 and B1"
+                                              : "reference machine";
   json["first_measurement"] = format_day(file.first_s);
   json["last_measurement"] = format_day(file.last_s);
   json["valid_until"] = format_day(result.valid_until_s);

@@ -163,7 +163,7 @@ std::string guess_unit(double rrc_N_per_kN) {
   };
   if (fits(1e3)) return ": it would be one as a plain ratio; multiply by 1000";
   if (fits(10.0)) return ": it would be one in percent; multiply by 10";
-  if (fits(0.1)) return ": a comma lost? a tenth of it would be one";
+  if (fits(0.1)) return ": is the decimal point missing?";
   if (rrc_N_per_kN > kMostRrc_N_per_kN) return ": a force in N? divide it by the load in kN";
   return "";
 }
@@ -173,7 +173,7 @@ double read_day_s(const std::string& text, const std::string& option) {
     return std::floor(parse_time_s(text) / measurements::kDay_s) * measurements::kDay_s;
   } catch (const std::invalid_argument&) {
     throw InputError(
-        {fmt::format("'{}' is no day", text), "command line", 0, option, text, "a day such as 2026-03-02", ""});
+        {fmt::format("'{}' is not a date", text), "command line", 0, option, text, "a day such as 2026-03-02", ""});
   }
 }
 

@@ -52,8 +52,8 @@ struct RepeatScatter {
 ///           first order Sxx is larger by (p - 1) sd_x^2, and 2 sd_x^2/Sxx comes of how both vary together
 /// Validity  errors of x are small beside the range of x: attenuation far below 1. s is the larger
 ///           one, since p - 2 is three for five tires, and chance could make s_r too small
-/// Source    textbook formulas, as in Draper and Smith, Applied Regression Analysis; the book was not read
-///           (attenuation). Second-hand
+/// Source    textbook formulas, as in Draper and Smith, Applied Regression Analysis, which was not read; attenuation
+///           derived here, to first order
 /// Errors    std::invalid_argument: fewer than three points, or all of one x
 /// Checked   tests/estimation/alignment_test.cpp
 struct LineFit {

@@ -20,7 +20,7 @@ struct AlignmentInput {
   std::string reference_machine;  // the machine of the file that is the reference
   std::optional<std::pair<double, double>> reference;  // A1, and B1 in N/kN; absent: 1 and 0
   bool preliminary = false;     // also a set of tires that breaks the rules for an alignment; it is then not valid
-  bool keep_first = false;      // the file has no first measurements, which are to be left out
+  bool first_excluded = false;  // the file already omits the first measurement of each tire, which is not used
   std::string on;               // day on which validity is judged, "2026-03-02"; empty: that of the last row
   std::string machine_changed;  // day of the last significant change of the machine; empty: none
 };
@@ -32,7 +32,8 @@ struct AlignmentCheck {
   std::string limit;
   std::string source;  // clause; "Second-hand" where the text itself was not read
   bool is_met = true;
-  bool is_rule = true;  // of the regulation; else advice, which does not make the alignment invalid
+  bool is_rule = true;     // of the regulation; else advice, which does not make the alignment invalid
+  bool stops_fit = false;  // where it is not met, there is no alignment unless `preliminary` asks for one
 };
 
 /// RRC_aligned = A1 (A2 RRC_m + B2) + B1. Its files: alignment.json, measurements.csv; its test report
@@ -44,9 +45,10 @@ struct Alignment : Report {
   double B1_N_per_kN = 0.0;
   ParameterEstimate sigma_m;  // N/kN, standard deviation of one measurement of the candidate machine
   std::vector<AlignmentCheck> checks;
-  std::string valid_until;  // "2028-03-01"
-  bool is_valid = false;    // all rules are met
-  bool is_due = false;      // the machine has to be aligned anew
+  std::string valid_until;     // "2028-03-01"
+  bool is_valid = false;       // all rules are met, and nothing asks for a new alignment
+  bool is_due = false;         // the machine has to be aligned anew
+  bool is_of_network = false;  // whether A1 and B1 were given, or the reference values are those of the network
   std::vector<std::string> warnings;
 };
 
@@ -61,15 +63,20 @@ struct AlignedValueInput {
   std::string alignment;      // alignment.json
   double rrc_N_per_kN = 0.0;  // measured, at 25 degC and for the 2 m drum
   int measurements = 1;       // whose mean it is
+  std::string on;             // day on which validity is judged, "2026-03-02"; empty: today
 };
 
-/// RRC_aligned with its uncertainty.
+/// An aligned value with its expanded uncertainty (95 %).
 struct AlignedValue : Report {
   ParameterEstimate rrc;  // N/kN
   std::vector<std::string> warnings;
 };
 
-/// Errors  InputError: a wrong file, a value that is no RRC in N/kN, fewer than one measurement
+/// RRC_aligned = A1 (A2 RRC_m + B2) + B1. Its uncertainty holds the line, what tires differ by beside it, and the
+/// scatter of `measurements` measurements; that of A1 and B1 is not included.
+/// Validity  the range of the alignment tires, until the day in the file; beyond them a warning says so
+/// Source    EU 2020/740, Annex V, Section 6
+/// Errors    InputError: a wrong file or day, a value that is no RRC in N/kN, fewer than one measurement
 AlignedValue apply_alignment(const AlignedValueInput& input);
 
 }  // namespace rollrig

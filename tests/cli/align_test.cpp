@@ -77,7 +77,7 @@ TEST_CASE("the first measurement of a tire is not used, and the line of the othe
   CHECK(alignment["line"]["B2_N_per_kN"]["value"].get<double>() == Approx(0.2).epsilon(1e-6));
   CHECK(alignment["sigma_m_N_per_kN"]["value"].get<double>() == Approx(0.03));
   CHECK(alignment["valid_until"] == "2028-06-06");
-  const json kept = json::parse(run_program("align tires.csv --keep-first --json -", folder.path()).out);
+  const json kept = json::parse(run_program("align tires.csv --first-excluded --json -", folder.path()).out);
   CHECK(kept["line"]["B2_N_per_kN"]["value"].get<double>() == Approx(0.2 - 0.95 * 0.05).epsilon(1e-6));
 }
 
