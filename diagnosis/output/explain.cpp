@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "diagnosis/terms/term.h"
+#include "diagnosis/terms/machine_terms.h"
 #include "rigs/machine.h"
 #include "sim/core/columns.h"
 #include "sim/core/error.h"
@@ -36,13 +36,23 @@ std::string join_or(const std::vector<std::string>& words, const char* none) {
 
 std::string section(const std::string& title, const std::string& text) { return title + "\n" + wrap(text, kIndent); }
 
+/// What an effect's declaration says: of the catalog, or of those that only a second machine shows. nullptr where there
+/// is no such effect.
+const models::EffectInfo* find_info(const std::string& name) {
+  if (const Term* term = look_up_term(name)) return &term->info();
+  for (const models::Effect* effect : effects_between_machines()) {
+    if (effect->info.id == name) return &effect->info;
+  }
+  return nullptr;
+}
+
 /// Each effect that it is confused with, with its own summary, so that one need not look it up.
 std::string describe_confusions(const models::EffectInfo& info) {
   if (info.confused_with.empty()) return "  none known\n";
   std::vector<std::vector<std::string>> rows;
   for (const std::string& name : info.confused_with) {
-    const Term* term = look_up_term(name);
-    rows.push_back({name, term != nullptr ? term->info().summary : ""});
+    const models::EffectInfo* other = find_info(name);
+    rows.push_back({name, other != nullptr ? other->summary : ""});
   }
   return text_columns(rows);
 }
@@ -56,9 +66,15 @@ std::string describe_tests(const models::EffectInfo& info) {
 
 std::string describe_info(const models::EffectInfo& info) {
   std::string text = wrap(info.id + ": " + info.summary, 0);
+  if (look_up_term(info.id) == nullptr) {
+    text += section("Compared only by",
+                    "rollrig diagnose A --against B (docs/machine_pairs.md): a single set cannot "
+                    "show it");
+  }
   text += section("Equation", info.equation) + section("Source", info.source);
-  text +=
-      wrap(fmt::format("Own parameters ([effects.{}]; two thirds of the prior lie in the usual range)", info.id), 0);
+  text += wrap(fmt::format("Own parameters ({}two thirds of the prior lie in the usual range)",
+                           look_up_term(info.id) == nullptr ? "" : fmt::format("[effects.{}]; ", info.id)),
+               0);
   std::vector<std::vector<std::string>> rows;
   for (const models::EffectParameter& each : info.parameters) rows.push_back({each.key, describe_parameter(each)});
   text += text_columns(rows);
@@ -90,6 +106,7 @@ std::string describe_parameter(const models::EffectParameter& parameter) {
 
 std::vector<std::string> explainable_names() {
   std::vector<std::string> names = term_names();
+  for (const models::Effect* effect : effects_between_machines()) names.push_back(effect->info.id);
   names.insert(names.end(), {"none", "unknown"});
   return names;
 }
@@ -99,7 +116,7 @@ std::string explain_effect(const std::string& name) {
   if (name == "unknown") {
     return "unknown: something outside the catalog\n" + wrap(kUnknown, kIndent) + section("Next", kUnknownNext);
   }
-  if (const Term* term = look_up_term(name)) return describe_info(term->info());
+  if (const models::EffectInfo* info = find_info(name)) return describe_info(*info);
   InputProblem problem = unknown_name("effect", name, explainable_names());
   if (problem.nearest == "none") problem.nearest = nearest_name(name, models::effect_ids());  // near to any short word
   problem.file = "command line";

@@ -100,9 +100,13 @@ void require_own_recordings(const MeasurementSet& a, const MeasurementSet& b) {
 void require_known(const rollrig::DiagnosisOptions& options) {
   std::vector<std::string> known = term_names();
   for (const models::Effect* effect : effects_between_machines()) known.push_back(effect->info.id);
-  for (const auto* list : {&options.only, &options.without}) {
+  for (const auto& [option, list] : {std::pair("--only", &options.only), std::pair("--without", &options.without)}) {
     for (const std::string& name : *list) {
-      if (std::count(known.begin(), known.end(), name) == 0) throw InputError(unknown_name("effect", name, known));
+      if (std::count(known.begin(), known.end(), name) > 0) continue;
+      InputProblem problem = unknown_name("effect", name, known);
+      problem.file = "command line";
+      problem.key = option;
+      throw InputError(problem);
     }
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// In which effect two machines differ that tested the same tire.
+/// Finds the effect in which two machines differ. Both tested the same tire.
 
 #include "include/rollrig/findings.h"
 #include "include/rollrig/machine_pair.h"

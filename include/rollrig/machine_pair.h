@@ -1,5 +1,5 @@
 #pragma once
-/// In which effect two machines differ that tested the same tire. Method: docs/machine_pairs.md.
+/// Finds the effect in which two machines differ. Both tested the same tire. Method: docs/machine_pairs.md.
 
 #include <array>
 #include <map>
@@ -61,8 +61,8 @@ struct PairFindings {
 /// The comparison of two machines; as a report without files.
 struct PairDiagnosis : PairFindings, Report {};
 
-/// In which effect two machines differ that tested the same tire. Both sets have the same tire file and the same kind
-/// of rig. `options`: budget and smallest_effect_percent do not count; `only` and `without` also take the names of
+/// Finds the effect in which two machines differ. Both sets have the same tire file and the same kind of rig.
+/// `options`: budget and smallest_effect_percent do not count; `only` and `without` also take the names of
 /// list_machine_effects().
 /// Errors  InputError: another tire or kind of machine; the same set twice; a set of the road; an unknown effect
 PairDiagnosis diagnose_pair(const MeasurementSet& a, const MeasurementSet& b, const DiagnosisOptions& options = {});

@@ -51,6 +51,14 @@ TEST_CASE("an effect's explanation holds all that its declaration knows", "[fast
   }
 }
 
+TEST_CASE("an effect that only two machines show says so, and names no key of a run file", "[fast]") {
+  for (const char* name : {"surface_roughness", "drum_diameter", "ambient_record", "liner_record"}) {
+    CHECK_THAT(diagnosis::explain_effect(name), Contains("Compared only by") && Contains("--against"));
+    CHECK_THAT(diagnosis::explain_effect(name), !Contains("[effects."));
+  }
+  CHECK_THAT(diagnosis::explain_effect("bearing_warmup"), !Contains("Compared only by"));
+}
+
 TEST_CASE("none and unknown are explained", "[fast]") {
   CHECK_THAT(diagnosis::explain_effect("none"), Contains("no_gap"));
   CHECK_THAT(diagnosis::explain_effect("unknown"), Contains("unexplained"));
