@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "api/data.h"
-#include "api/watched_items.h"
+#include "api/report_files.h"
 #include "estimation/uncertainty/uncertainty.h"
 #include "report/page.h"
 #include "report/run_page.h"
@@ -83,7 +83,12 @@ std::string find_role(const scenarios::RunSpec& spec, const RunInput& input, con
 /// Adds the uncertainty to the result that is there.
 void add_run_uncertainty(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome,
                          const UncertaintyOptions& options, const Progress& progress, Json& json, RunResult& result) {
-  if (!options.budget && options.monte_carlo_trials == 0) return;
+  const bool is_asked = options.budget || options.monte_carlo_trials > 0;
+  if (outcome.why_no_uncertainty.has_value()) {
+    if (is_asked) throw InputError(*outcome.why_no_uncertainty);
+    return;
+  }
+  if (!is_asked && !options.budget_if_any) return;
   const estimation::Uncertainty uncertainty = estimation::calc_uncertainty(
       outcome.make_measurement_model(), {options.monte_carlo_trials, spec.seed, options.threads}, progress);
   json["uncertainty"] = estimation::make_uncertainty_json(uncertainty);
@@ -97,9 +102,8 @@ Run::Run(const RunInput& input) {
   const auto data = std::make_shared<Data>();
   data->spec = read_run(input);
   data->run = scenarios::prepare_run(data->spec);
-  for (const CampaignFile& file : hash_files(recorder.list_files())) {
-    data->files.push_back({find_role(data->spec, input, file.path), file.path, file.sha256});
-  }
+  data->files =
+      list_report_files(recorder, [&](const std::string& path) { return find_role(data->spec, input, path); });
   data_ = data;
 }
 

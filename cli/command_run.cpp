@@ -36,7 +36,7 @@ int run_command(const RunOptions& options) {
   }
   require_asked(options, run);
   UncertaintyOptions uncertainty = options.uncertainty;
-  if (!options.output.report.empty() && run.has_uncertainty()) uncertainty.budget = true;
+  uncertainty.budget_if_any = !options.output.report.empty() && run.has_uncertainty();
   run.check(uncertainty);
   Output output(options.output, {{"--write-set", options.set_folder}});
   std::optional<OutputFolder> set;

@@ -2,6 +2,8 @@
 // X, Appendix 2, section II repeats them (read at legislation.gov.uk/eur/2017/2400/annex/X/appendix/2).
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "report/run_reports.h"
 #include "scenarios/run/results.h"
 
@@ -27,20 +29,34 @@ ReportSection make_iso_machine(const RunSpec& spec, const ReportValues& values) 
   form.fields.push_back(make_field(
       "Drum diameter", is_drum ? show_number("diameter_m", ".3f", spec.rig.drum.diameter_m) : "none: a flat belt"));
   form.fields.push_back(make_blank("Surface of the drum (smooth steel or textured)"));
-  form.fields.push_back(
-      make_field("Measurement method", is_drum ? "torque method, at the drum's axis" : "force at the belt"));
-  form.fields.push_back(values.field("  beside it, by the force method", "/result/force_method_N", ".2f"));
+  form.fields.push_back(is_drum ? values.field("Measurement method", "/result/method")
+                                : make_field("Measurement method", "force at the belt"));
   form.fields.push_back(make_field("Skim test load", show_number("load_N", ".0f", spec.rig.skim.load_N)));
   form.fields.push_back(make_blank("Identification and last calibration of the machine"));
   return {"Test machine", {form}};
+}
+
+/// Class, load index and speed symbol, which the sidewall says.
+void add_service_description(const std::optional<models::ServiceDescription>& service, ReportForm& form) {
+  if (!service.has_value()) {
+    form.fields.push_back(make_blank("Tire class (C1, C2, C3)"));
+    form.fields.push_back(make_blank("Load index and speed symbol"));
+    return;
+  }
+  form.fields.push_back(make_field("Tire class", name_of(service->tire_class)));
+  form.fields.push_back(service->speed_symbol.empty()
+                            ? make_field("Load index", std::to_string(service->load_index))
+                            : make_field("Load index and speed symbol",
+                                         fmt::format("{} {}", service->load_index, service->speed_symbol)));
 }
 
 ReportSection make_iso_tire(const RunSpec& spec) {
   ReportForm form{{make_field("Tire file", spec.tire.name)}};
   form.fields.push_back(spec.tire.designation.empty() ? make_blank("Size designation")
                                                       : make_field("Size designation", spec.tire.designation));
-  for (const char* blank : {"Brand and trade description", "Tire class (C1, C2, C3)", "Load index and speed symbol",
-                            "Reference inflation pressure", "Serial number or date code", "Rim width and material"}) {
+  add_service_description(spec.tire.service, form);
+  for (const char* blank : {"Brand and trade description", "Reference inflation pressure", "Serial number or date code",
+                            "Rim width and material"}) {
     form.fields.push_back(make_blank(blank));
   }
   return {"Test tire", {form}};
@@ -80,6 +96,22 @@ ReportTable make_iso_cycles(const ReportValues& values) {
   return table;
 }
 
+/// F_r by each method that the run allows; nothing where there is one alone.
+std::optional<ReportTable> make_iso_methods(const ReportValues& values) {
+  const std::size_t methods = values.has("/result/methods") ? values.json()["result"]["methods"].size() : 0;
+  if (methods < 2) return std::nullopt;
+  ReportTable table{
+      "Methods of the standard", {"method", "F_r, N", "RRc, N/kN", "at 25 °C and 2 m, N/kN", "differs, %"}, {}, 0};
+  for (std::size_t i = 0; i < methods; ++i) {
+    const std::string method = fmt::format("/result/methods/{}", i);
+    table.rows.push_back({values.value(method + "/name"), values.number(method + "/rolling_resistance_N", ".2f"),
+                          values.number(method + "/rrc_N_per_kN", ".3f"),
+                          values.number(method + "/rrc_25degC_2m_N_per_kN", ".3f"),
+                          values.number(method + "/difference_percent", "+.2f")});
+  }
+  return table;
+}
+
 ReportSection make_iso_results(const RunSpec& spec, const ReportValues& values) {
   const auto& iso = spec.tire.iso_28580;
   const double coefficient_per_K = iso.has_value() ? iso->ambient_coefficient_per_K : models::kAmbientCoefficient_per_K;
@@ -103,7 +135,12 @@ ReportSection make_iso_results(const RunSpec& spec, const ReportValues& values) 
                                      "/result/rrc_uncertainty_N_per_kN", ".3f"));
   form.fields.push_back(make_blank("Alignment equation of the laboratory"));
   form.fields.push_back(make_blank("Aligned coefficient, N/kN"));
+  if (values.has("/result/label_class")) {
+    form.fields.push_back(values.field("EU label class of this value, not aligned", "/result/label_class"));
+    form.fields.push_back(values.field("  probability of this class", "/result/label_probability", ".3f"));
+  }
   ReportSection section{"Results", {form}};
+  if (const auto methods = make_iso_methods(values)) section.parts.push_back(*methods);
   if (cycles > 1) section.parts.push_back(make_iso_cycles(values));
   return section;
 }

@@ -7,6 +7,7 @@
 #include "report/blocks.h"
 #include "report/run_reports.h"
 #include "scenarios/run/results.h"
+#include "scenarios/run/tire_validity.h"
 
 namespace rollrig::report {
 namespace {
@@ -68,11 +69,30 @@ ReportTable make_sections_table(const ReportValues& values, const std::string& l
   return table;
 }
 
+/// Consumption and range by cycle, and combined.
+ReportTable make_economy_table(const ReportValues& values, bool is_label) {
+  if (is_label) {
+    return make_sections_table(values, "/result/economy", "By the recharge, and values of the label",
+                               {{"name", "cycle", ""},
+                                {"ac_consumption_Wh_per_km", "AC, Wh/km", ".1f"},
+                                {"ac_mi_per_kWh", "AC, mi/kWh", ".3f"},
+                                {"mpge", "MPGe", ".1f"},
+                                {"label_mpge", "label, MPGe", ".1f"},
+                                {"label_range_mi", "label range, mi", ".1f"}});
+  }
+  return make_sections_table(values, "/result/economy", "DC energy from the battery, and range",
+                             {{"name", "cycle", ""},
+                              {"dc_consumption_Wh_per_km", "Wh/km", ".1f"},
+                              {"dc_mi_per_kWh", "mi/kWh", ".3f"},
+                              {"range_km", "range, km", ".1f"},
+                              {"range_mi", "range, mi", ".1f"}});
+}
+
 /// Every single result, with what the scenario says of it.
 ReportForm make_single_results(const scenarios::RunSpec& spec, const ReportValues& values) {
   ReportForm form;
   for (const auto& [key, value] : values.json()["result"].items()) {
-    if (value.is_array() || value.is_null()) continue;
+    if (value.is_structured() || value.is_null()) continue;
     ReportField field = values.field(capitalized(plain_name(key)), "/result/" + key, ".5g");
     for (const scenarios::ResultInfo& info : spec.scenario->results) {
       if (info.key == key) field.note = info.doc;
@@ -80,6 +100,38 @@ ReportForm make_single_results(const scenarios::RunSpec& spec, const ReportValue
     form.fields.push_back(std::move(field));
   }
   return form;
+}
+
+ReportSection make_j1634_results(const scenarios::RunSpec& spec, const ReportValues& values) {
+  ReportSection results{"Results", {}};
+  ReportForm single = make_single_results(spec, values);
+  if (!single.fields.empty()) results.parts.push_back(std::move(single));
+  results.parts.push_back(make_sections_table(values, "/result/sections", "DC energy of the vehicle",
+                                              {{"name", "section", ""},
+                                               {"distance_km", "distance, km", ".3f"},
+                                               {"wheel_energy_Wh", "hubs, Wh", ".1f"},
+                                               {"recuperated_Wh", "recuperated, Wh", ".1f"},
+                                               {"battery_energy_Wh", "battery, Wh", ".1f"}}));
+  if (values.has("/result/economy")) {
+    results.parts.push_back(make_economy_table(values, false));
+    if (values.has("/result/economy/0/ac_consumption_Wh_per_km")) {
+      results.parts.push_back(make_economy_table(values, true));
+    }
+  }
+  if (!scenarios::has_tire_loss(spec)) {
+    results.parts.push_back(ReportText{
+        "Rolling resistance: not simulated by itself. The measured A, B, C of the vehicle have the tires in them."});
+    return results;
+  }
+  results.parts.push_back(make_sections_table(values, "/result/sections", "Rolling resistance",
+                                              {{"name", "section", ""},
+                                               {"vehicle_rr_energy_Wh", "all tires, Wh", ".1f"},
+                                               {"rr_energy_Wh", "one tire, Wh", ".1f"},
+                                               {"rr_energy_iso_Wh", "by ISO, Wh", ".1f"},
+                                               {"mean_rrc_N_per_kN", "RRc, N/kN", ".2f"},
+                                               {"temperature_start_degC", "liner from, °C", ".1f"},
+                                               {"temperature_end_degC", "to, °C", ".1f"}}));
+  return results;
 }
 
 }  // namespace
@@ -90,27 +142,10 @@ TestReport make_sae_j1634_report(const scenarios::RunSpec& spec, const scenarios
   report.title = "Test report: energy of an electric vehicle, SAE J1634";
   report.standard =
       "Multi-cycle test by SAE J1634, section 8 (not read), as 40 CFR 600.116-12(a) fixes it. The fields are those "
-      "that "
-      "such a test needs; 40 CFR 600.116-12 has no form.";
+      "that such a test needs; 40 CFR 600.116-12 has no form.";
   report.subject = fmt::format("Vehicle {}, tire {} ({})", spec.vehicle->name, spec.tire.name, spec.tire.designation);
-  ReportSection results{"Results", {}};
-  ReportForm single = make_single_results(spec, values);
-  if (!single.fields.empty()) results.parts.push_back(std::move(single));
-  results.parts.push_back(make_sections_table(values, "/result/sections", "DC energy of the vehicle",
-                                              {{"name", "section", ""},
-                                               {"distance_km", "distance, km", ".3f"},
-                                               {"wheel_energy_Wh", "hubs, Wh", ".1f"},
-                                               {"recuperated_Wh", "recuperated, Wh", ".1f"},
-                                               {"battery_energy_Wh", "battery, Wh", ".1f"}}));
-  results.parts.push_back(make_sections_table(values, "/result/sections", "Rolling resistance",
-                                              {{"name", "section", ""},
-                                               {"vehicle_rr_energy_Wh", "all tires, Wh", ".1f"},
-                                               {"rr_energy_Wh", "one tire, Wh", ".1f"},
-                                               {"rr_energy_iso_Wh", "by ISO, Wh", ".1f"},
-                                               {"mean_rrc_N_per_kN", "RRc, N/kN", ".2f"},
-                                               {"temperature_start_degC", "liner from, °C", ".1f"},
-                                               {"temperature_end_degC", "to, °C", ".1f"}}));
-  report.sections = {make_j1634_laboratory(), make_j1634_vehicle(spec), make_j1634_test(spec, outcome), results};
+  report.sections = {make_j1634_laboratory(), make_j1634_vehicle(spec), make_j1634_test(spec, outcome),
+                     make_j1634_results(spec, values)};
   return report;
 }
 

@@ -39,6 +39,13 @@ namespace {
 
 constexpr const char* kByHand = "to be filled in by hand";
 
+/// A cell of the body of a table: numbers stand to the right, and a short word is not broken.
+const char* find_cell_class(const ReportCell& cell, bool is_number) {
+  constexpr std::size_t kShort = 16;  // Assumed: characters of the longest word that every column has room for
+  if (is_number) return "right";
+  return count_characters(cell.text) <= kShort ? "short" : "";
+}
+
 std::string make_cell_html(const char* tag, const ReportCell& cell, const char* css_class) {
   std::string html = fmt::format("<{}", tag);
   if (*css_class != '\0') html += fmt::format(" class=\"{}\"", css_class);
@@ -82,7 +89,8 @@ std::vector<bool> find_numbers(const ReportTable& table) {
 
 std::string make_row(const std::vector<ReportCell>& row, const std::vector<bool>& numbers, const std::string& mark) {
   std::string html = mark.empty() ? "<tr>" : fmt::format("<tr class=\"{}\">", mark);
-  for (std::size_t i = 0; i < row.size(); ++i) html += make_cell_html("td", row[i], numbers[i] ? "right" : "");
+  for (std::size_t i = 0; i < row.size(); ++i)
+    html += make_cell_html("td", row[i], find_cell_class(row[i], numbers[i]));
   return html + "</tr>\n";
 }
 

@@ -201,13 +201,19 @@ std::vector<MethodResult> evaluate_methods(const Settings& settings, const RunSp
 }
 
 /// Where a test differs from the one that the label is defined by; empty where it does not.
-std::string find_other_condition(const Settings& settings, const models::IsoTestOfClass& asked) {
+/// Source  UN R117 Annex 6: drum of 1.7 m at least, air of 20 to 30 degC; second-hand
+std::string find_other_condition(const Settings& settings, const RunSpec& spec, const models::IsoTestOfClass& asked) {
   constexpr double kSame = 0.01;  // Assumed: files round
+  constexpr double kLeastDiameter_m = 1.7;
+  if (!models::is_drum(spec.rig.kind->traits)) return "machine";
+  if (spec.rig.drum.diameter_m < kLeastDiameter_m * (1.0 - kSame)) return "drum's diameter";
   const auto differs = [](double is, double wanted) { return std::abs(is / wanted - 1.0) > kSame; };
   const DrumConditions& conditions = settings.conditions;
   if (differs(*conditions.load_N, asked.load_N)) return "load";
   if (asked.pressure_Pa.has_value() && differs(*conditions.pressure_Pa, *asked.pressure_Pa)) return "pressure";
   if (differs(conditions.speed_m_s, asked.speed_m_s)) return "speed";
+  if (!models::is_ambient_correction_valid(*conditions.ambient_K)) return "ambient temperature";
+  if (conditions.soak_s < asked.soak_s * (1.0 - kSame)) return "soak";
   return *settings.warm_up_s < asked.warm_up_s * (1.0 - kSame) ? "warm-up" : "";
 }
 
@@ -215,9 +221,10 @@ void add_label(const Settings& settings, const RunSpec& spec, Results& results) 
   if (!spec.tire.service.has_value()) return;
   const models::ServiceDescription& service = *spec.tire.service;
   const std::string other =
-      find_other_condition(settings, models::find_iso_test(service, spec.tire.values.geometry.rim_diameter_m));
+      find_other_condition(settings, spec, models::find_iso_test(service, spec.tire.values.geometry.rim_diameter_m));
   if (!other.empty()) {
-    results.why_no_label = fmt::format("none: the {} is not that of class {}", other, name_of(service.tire_class));
+    results.why_no_label =
+        fmt::format("none: the {} is not that of the standard for class {}", other, name_of(service.tire_class));
     return;
   }
   const double rrc = results.corrected_rrc;
@@ -272,11 +279,17 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   if (!models::is_ambient_correction_valid(ambient_K)) {
     outcome.warnings.push_back("the correction to 25 degC holds from 20 to 30 degC only");
   }
+  if (settings.method.value != kTorqueMethod) {
+    outcome.why_no_uncertainty = InputProblem{"the uncertainty budget is that of the torque method",
+                                              "settings",
+                                              0,
+                                              "method",
+                                              settings.method.value,
+                                              kTorqueMethod,
+                                              ""};
+    return results;
+  }
   outcome.make_measurement_model = [&spec, settings, cycles] {
-    if (settings.method.value != kTorqueMethod) {
-      throw InputError({"the uncertainty budget is that of the torque method", "settings", 0, "method",
-                        settings.method.value, kTorqueMethod, ""});
-    }
     const auto simulate = [&](double speed_m_s, double pressure_Pa) {
       return simulate_resistance_N(settings, spec, speed_m_s, pressure_Pa);
     };

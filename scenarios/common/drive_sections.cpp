@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scenarios/common/iso_coefficient.h"
+#include "scenarios/run/tire_validity.h"
 
 namespace rollrig::scenarios {
 
@@ -69,9 +70,8 @@ DriveSection evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& la
   section.distance_m = reader.common(VehicleIntegral::kDistance);
   section.duration_s = span.end_s - span.start_s;
   section.rr_J = reader.wheel(WheelIntegral::kCountedRollingEnergy, 0);
-  const bool tires_lose = is_indoors(spec.rig.kind->traits) || !spec.vehicle->road_load.has_value();
   const auto iso_rrc = find_shown_iso_rrc(spec, layout);
-  if (iso_rrc.has_value() && tires_lose) {
+  if (iso_rrc.has_value() && has_tire_loss(spec)) {
     section.rr_iso_J =
         *iso_rrc * layout.wheels.front().static_load_N * reader.common(VehicleIntegral::kCountedDistance);
   }

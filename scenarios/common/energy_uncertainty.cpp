@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "scenarios/run/run_spec.h"
+#include "scenarios/run/tire_validity.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -102,8 +103,10 @@ std::vector<double> simulate_energies(const RunSpec& spec) {
 
 MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& settings) {
   MeasurementModel model;
-  model.measurands = {{"energy of the battery, all sections", "battery_energy_Wh"},
-                      {"energy of rolling resistance, all tires and sections", "vehicle_rr_energy_Wh"}};
+  model.measurands = {{"energy of the battery, all sections", "battery_energy_Wh"}};
+  if (has_tire_loss(spec)) {
+    model.measurands.push_back({"energy of rolling resistance, all tires and sections", "vehicle_rr_energy_Wh"});
+  }
   const auto setting = [&settings](const char* key) { return unit_of_key(key).to_si(settings[key].get<double>()); };
   const double mass_kg = spec.vehicle->body.mass_kg;
   model.inputs = {
@@ -131,6 +134,7 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
     numbers->move(Eigen::Map<const Eigen::VectorXd>(x.data() + energy_input::kTire, count), own.tire);
     std::vector<double> energies_J = simulate_energies(own);
     energies_J[0] *= x[energy_input::kMeter];
+    if (!has_tire_loss(own)) energies_J.pop_back();
     return energies_J;
   };
   return model;

@@ -76,7 +76,27 @@ class IsoResponse {
 
 /// Whether the scatter of the cycles stands for noise and drift of the sensor.
 bool has_scatter(const RunSpec& spec, const std::vector<Cycle>& cycles) {
-  return spec.sensors.has_value() && cycles.size() >= kFewestCycles;
+  return spec.sensors.has_value() && cycles.size() > kFewestCycles;
+}
+
+struct ScatterOfCycles {
+  double sd_N = 0.0;
+  double degrees_of_freedom = 0.0;
+};
+
+/// Scatter of the rolling resistance about its trend. The first cycle, the end of the warm-up, is left out: the tire is
+/// not as warm in it as in those that follow.
+/// Equation  s^2 = sum (F_{i+1} - F_i)^2 / (2 (n - 1)), with 2 (n - 1)^2/(3 n - 4) degrees of freedom
+/// Validity  a trend that is small from cycle to cycle; normal errors
+/// Source    mean square successive difference, von Neumann et al., Annals of Mathematical Statistics 12 (1941) 153; not
+///           read. The degrees of freedom: twice its squared mean over its variance
+ScatterOfCycles calc_scatter(const std::vector<Cycle>& cycles) {
+  const auto n = static_cast<double>(cycles.size() - 1);
+  double squares = 0.0;
+  for (std::size_t i = 2; i < cycles.size(); ++i) {
+    squares += std::pow(cycles[i].rolling_resistance_N - cycles[i - 1].rolling_resistance_N, 2);
+  }
+  return {std::sqrt(squares / (2.0 * (n - 1.0))), 2.0 * (n - 1.0) * (n - 1.0) / (3.0 * n - 4.0)};
 }
 
 /// The difference of the two readings: its error from noise, drift and resolution, by the sensor or by the cycles.
@@ -92,16 +112,14 @@ UncertainInput make_force_input(const RunSpec& spec, const std::vector<Cycle>& c
     input.source = "noise, drift and resolution of the sensor, of the means over the two windows";
     return input;
   }
-  double mean = 0.0, squares = 0.0;
-  const auto n = static_cast<double>(cycles.size());
-  for (const Cycle& own : cycles) mean += own.rolling_resistance_N / n;
-  for (const Cycle& own : cycles) squares += std::pow(own.rolling_resistance_N - mean, 2);
+  const ScatterOfCycles scatter = calc_scatter(cycles);
   input.name = "repeatability, cycle to cycle";
-  input.standard_uncertainty = lever_m * std::sqrt(squares / (n - 1.0));
-  input.degrees_freedom = n - 1.0;
+  input.standard_uncertainty = lever_m * scatter.sd_N;
+  input.degrees_freedom = scatter.degrees_of_freedom;
   input.evaluation = Evaluation::kTypeA;
   input.distribution = Distribution::kStudentT;
-  input.source = fmt::format("standard deviation of {} cycles, noise and drift of the sensor included", cycles.size());
+  input.source =
+      fmt::format("successive differences of {} cycles, noise and drift of the sensor included", cycles.size() - 1);
   return input;
 }
 
@@ -168,8 +186,8 @@ MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& c
   model.inputs = make_iso_inputs(spec, cycles, pressure_Pa, accuracies);
   model.left_out = {"mounting of the tire, and how the test repeats from day to day: this is one test"};
   if (!has_scatter(spec, cycles)) {
-    model.left_out.push_back(
-        fmt::format("repeatability from cycle to cycle: it takes {} cycles or more, with sensors", kFewestCycles));
+    model.left_out.push_back(fmt::format(
+        "repeatability from cycle to cycle: it takes measurement_cycles = {} or more, with sensors", kFewestCycles));
   }
   const IsoResponse response(simulate, model.inputs[iso_input::kSpeed].value, pressure_Pa);
   const double skim_Nm = cycles.back().skim.force_N * spec.rig.lever_m();

@@ -63,7 +63,7 @@ void warn_of_end(double usable_J, double all_J, double needed_s, Outcome& outcom
   constexpr double kNoticeable = 0.02;  // Assumed: of the usable energy
   if (std::abs(all_J / usable_J - 1.0) <= kNoticeable) return;
   outcome.warnings.push_back(
-      fmt::format("the sections take {:.2f} of the battery's {:.2f} kWh; it is empty at the end with end_min={:.1f}",
+      fmt::format("the sections take {:.2f} of the battery's {:.2f} kWh; with end_min={:.1f} it is empty at the end",
                   all_J / kJ_per_kWh, usable_J / kJ_per_kWh, needed_s / 60.0));
 }
 

@@ -3,22 +3,26 @@
 namespace rollrig::scenarios {
 namespace {
 
-constexpr double kIsoLoadShareC1 = 0.8;            // of the maximum load, ISO 28580, as in UN R117 Annex 6
 constexpr double kBaseAboveIsoPressure_Pa = 30e3;  // Assumed: 210 and 250 kPa of ISO 28580 against 240 and 280 kPa
 
-double find_iso_load_N(const RunSpec& spec) {
-  if (spec.tire.iso_28580.has_value()) return spec.tire.iso_28580->load_N;
-  throw InputError({fmt::format("the maximum load is not given, and tire '{}' has no table [iso_28580] to take it from",
-                                spec.tire.name),
-                    spec.tire.path, 0, "maximum_load_N", "",
-                    "--set maximum_load_N=..., or a table [iso_28580] in the tire file", ""});
+/// The load of the index, or that of the ISO test over its share of it in class C1.
+double find_maximum_load_N(const RunSpec& spec) {
+  const models::TireFile& tire = spec.tire;
+  if (tire.service.has_value()) return tire.service->load_capacity_N();
+  if (tire.iso_28580.has_value()) return tire.iso_28580->load_N / models::find_iso_load_share(models::TireClass::kC1);
+  throw InputError(
+      {fmt::format("the maximum load is not given, and tire '{}' has neither a table [service_description] nor "
+                   "[iso_28580] to take it from",
+                   tire.name),
+       tire.path, 0, "maximum_load_N", "",
+       "--set maximum_load_N=..., or a table [service_description] in the tire file", ""});
 }
 
 }  // namespace
 
 void MultipointSettings::complete(const RunSpec& spec) {
   constexpr double kClassC1_s = 1800.0;  // as of CycleSettings
-  if (!maximum_load_N.has_value()) maximum_load_N = find_iso_load_N(spec) / kIsoLoadShareC1;
+  if (!maximum_load_N.has_value()) maximum_load_N = find_maximum_load_N(spec);
   if (!conditions.pressure_Pa.has_value()) {
     conditions.pressure_Pa = find_default_pressure_Pa(spec) + kBaseAboveIsoPressure_Pa;
   }

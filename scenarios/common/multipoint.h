@@ -23,9 +23,11 @@ struct MultipointSettings {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"maximum_load_N", between(100.0, 100000.0),
-                "Maximum load of the tire; default: the load of its [iso_28580] over 0.8, the share of class C1"},
-          p.maximum_load_N);
+    visit(
+        Field{"maximum_load_N", between(100.0, 100000.0),
+              "Maximum load of the tire; default: the load of its load index ([service_description]), else that of its "
+              "[iso_28580] over 0.8, the share of class C1"},
+        p.maximum_load_N);
     visit(Field{"pressure_kPa", between(50.0, 1500.0),
                 "Base pressure, gauge. Assumed default: 30 kPa above the pressure of the tire's [iso_28580], which "
                 "gives 240 and 280 kPa for standard and reinforced tires"},

@@ -29,7 +29,7 @@ std::vector<const models::TireFile*> list_tires(const RunSpec& spec) {
 }
 
 void warn_of_tires(const RunSpec& spec, Outcome& outcome) {
-  if (spec.baseline == models::Baseline::kConstantRrc) return;
+  if (spec.baseline == models::Baseline::kConstantRrc || !has_tire_loss(spec)) return;
   std::vector<std::string>& warnings = outcome.warnings;
   for (const models::TireFile* tire : list_tires(spec)) {
     const auto warning = tire->warn_of_conductances(spec.rig.cooling_rig());

@@ -142,4 +142,9 @@ std::vector<std::string> list_validity_warnings(const std::string& tire, const m
   return warnings;
 }
 
+bool has_tire_loss(const RunSpec& spec) {
+  const bool has_road_load = spec.vehicle.has_value() && spec.vehicle->road_load.has_value();
+  return is_indoors(spec.rig.kind->traits) || !has_road_load;
+}
+
 }  // namespace rollrig::scenarios

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/tire/tire_file.h"
+#include "scenarios/run/scenario.h"
 #include "sim/recording.h"
 
 namespace rollrig::scenarios {
@@ -27,5 +28,8 @@ std::vector<std::string> list_negative_losses(const models::TireFile& tire);
 /// temperature of the first such row, and the key of the tire files that may cause it.
 /// Checked tests/scenarios/tire_validity_test.cpp
 void require_loss(const std::vector<const models::TireFile*>& tires, const sim::Recording<double>& recording);
+
+/// Whether the loss of tires is simulated. On the road, a measured road load of the vehicle has its tires in it.
+bool has_tire_loss(const RunSpec& spec);
 
 }  // namespace rollrig::scenarios

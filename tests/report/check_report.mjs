@@ -98,7 +98,7 @@ async function checkNumbers(file) {
       continue;
     }
     ++numbers;
-    const [shown] = text.match(/^-?[\d.]+(e[-+]?\d+)?/) || [''];
+    const [shown] = text.match(/^[-+]?[\d.]+(e[-+]?\d+)?/) || [''];
     const [mantissa, exponent] = shown.split('e');
     const digit = 10 ** (Number(exponent || 0) - (mantissa.split('.')[1] || '').length);
     const isRounded = mantissa.includes('.') || Math.abs(value) < 1e6;

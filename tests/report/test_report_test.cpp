@@ -161,9 +161,53 @@ TEST_CASE("reports of coastdowns on A4", "[slow]") {
   check_report_of(folder, "fit road-load coastdowns.csv --per-mass --monte-carlo 1000 --seed 3");
 }
 
+TEST_CASE("a report has class, load index, method and label class where the tire file says them", "[fast]") {
+  const TemporaryFolder folder;
+  const auto run =
+      run_program("run iso_28580 --tire c2_215_65r16c --fidelity quasi_static --set method=force --quiet --report -",
+                  folder.path());
+  REQUIRE(run.status == 0);
+  const auto row = [](const std::string& label) { return "<th scope=\"row\">" + label + "</th>"; };
+  CHECK(run.out.find(row("Tire class") + "<td><span>C2</span></td>") != std::string::npos);
+  CHECK(run.out.find(row("Load index and speed symbol") + "<td>") != std::string::npos);
+  CHECK(run.out.find(row("Load index and speed symbol") + "<td class=\"blank\">") == std::string::npos);
+  CHECK(run.out.find("data-json=\"/result/method\"") != std::string::npos);
+  CHECK(run.out.find("data-json=\"/result/label_class\"") != std::string::npos);
+  CHECK(run.out.find("data-json=\"/result/methods/2/rolling_resistance_N\"") != std::string::npos);
+}
+
+TEST_CASE("a report of another method than torque has no budget, and asking for one says why", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string command = "run iso_28580 --tire a50 --fidelity quasi_static --quiet --set method=deceleration ";
+  const auto run = run_program(command + "--report - ", folder.path());
+  REQUIRE(run.status == 0);
+  CHECK(run.out.find("data-json=\"/result/method\"") != std::string::npos);
+  CHECK(run.out.find("/uncertainty") == std::string::npos);
+  const auto asked = run_program(command + "--uncertainty", folder.path());
+  CHECK(asked.status == 2);
+  CHECK(asked.err.find("torque method") != std::string::npos);
+}
+
+TEST_CASE("reports of laws of rolling resistance on A4", "[slow]") {
+  const std::string examples = std::string(ROLLRIG_SOURCE_DIR) + "/assets/examples/";
+  const std::string tire = " --maximum-load 6570 --base-pressure 240";
+  check_report_of(TemporaryFolder(), "fit j2452 '" + examples + "j2452_points.csv'" + tire, "--shows SMERF");
+  check_report_of(TemporaryFolder(), "fit j2452 '" + examples + "j2452_points.csv'",
+                  "--shows 'maximum load or base pressure is not known'");
+  check_report_of(TemporaryFolder(), "fit j1269 '" + examples + "j1269_points.csv'" + tire, "--shows J1269");
+  const TemporaryFolder folder;
+  REQUIRE(run_program("run sae_j2452 --tire c1_205_55r16 --rig drum_1m7 --fidelity quasi_static --out coastdown",
+                      folder.path())
+              .status == 0);
+  check_report_of(folder, "fit j2452 coastdown", "--shows 'come from a simulation'");
+}
+
 TEST_CASE("report of a multi-cycle test on A4", "[slow]") {
   check_report_of(TemporaryFolder(), "run sae_j1634 --tire a50 --fidelity quasi_static",
                   "--shows 'Dynamometer setting A'");
+  check_report_of(TemporaryFolder(),
+                  "run sae_j1634 --tire a50 --vehicle volvo_ex30 --rig road --fidelity quasi_static --set mid_min=170",
+                  "--shows 'label range'");
 }
 
 TEST_CASE("report of a tire whose names are long and hold a script on A4", "[slow]") {

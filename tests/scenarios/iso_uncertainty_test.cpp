@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "estimation/uncertainty/uncertainty.h"
+#include "measurements/sensor_file.h"
 #include "sim/core/assets.h"
 #include "tests/support/drum_fixture.h"
 
@@ -46,7 +47,7 @@ struct IsoRun {
 
 scenarios::RunSpec make_iso(const std::vector<std::string>& settings = {}, bool sensors = false) {
   scenarios::RunSpec spec = make_spec("iso_28580", "a50", settings, "quasi_static");
-  if (sensors) spec.sensors = spec.rig.kind->default_sensors;
+  if (sensors) spec.sensors = measurements::read_sensor_asset("source");
   return spec;
 }
 
@@ -100,18 +101,42 @@ TEST_CASE("speed and pressure act as in a simulation with others", "[fast]") {
   CHECK(1e3 * run.model.evaluate(x)[1] - before == Approx(after - before).epsilon(0.01));
 }
 
-TEST_CASE("with three cycles and sensors their scatter is the contribution of the torque", "[fast]") {
+TEST_CASE("with three measurement cycles and sensors, the scatter of the torque is that of the cycles", "[fast]") {
   const IsoRun run(make_iso({"measurement_cycles=4", "warm_up_min=90"}, true));
   const UncertainInput& repeat = run.model.inputs[0];
   CHECK(repeat.evaluation == Evaluation::kTypeA);
-  CHECK(repeat.degrees_freedom == 4.0);
-  const double per_N = 1.0 / number(run.outcome, "load_N");
-  CHECK(1e3 * repeat.standard_uncertainty * per_N ==
-        Approx(number(run.outcome, "rrc_cycles_sd_N_per_kN")).epsilon(1e-3));
+  CHECK(repeat.degrees_freedom == Approx(18.0 / 8.0));  // 2 (n - 1)^2/(3 n - 4), n = 4
   CHECK(run.model.left_out.size() == 1);
-  const IsoRun one(make_iso({}, true));
+  const IsoRun one(make_iso({"measurement_cycles=2"}, true));
   CHECK(one.model.inputs[0].evaluation == Evaluation::kTypeB);
   CHECK(one.model.left_out.size() == 2);
+}
+
+TEST_CASE("a tire that still warms up does not count as scatter from cycle to cycle", "[fast]") {
+  // Without noise, the sensors' cycles differ by the warm-up alone.
+  scenarios::RunSpec spec = make_iso({"measurement_cycles=4"}, true);
+  for (auto& [quantity, sensor] : *spec.sensors) sensor.noise_sd = sensor.drift_sd = 0.0;
+  const IsoRun run(std::move(spec));
+  const double trend_N_per_kN = number(run.outcome, "rrc_cycles_sd_N_per_kN");
+  REQUIRE(trend_N_per_kN > 0.03);
+  const double lever_m = 1.0;  // of the 2 m drum
+  const double scatter_N_per_kN =
+      1e3 * run.model.inputs[0].standard_uncertainty / lever_m / number(run.outcome, "load_N");
+  CHECK(scatter_N_per_kN < 0.3 * trend_N_per_kN);
+}
+
+TEST_CASE("noise from cycle to cycle comes back as its standard uncertainty, on average over seeds", "[fast]") {
+  double squares = 0.0;
+  constexpr unsigned kSeeds = 10;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    scenarios::RunSpec spec = make_iso({"measurement_cycles=30", "warm_up_min=120"}, true);
+    spec.seed = seed;
+    const IsoRun run(spec);
+    squares += std::pow(run.model.inputs[0].standard_uncertainty, 2) / kSeeds;
+  }
+  const IsoRun one(make_iso({"warm_up_min=120"}, true));
+  const double expected = one.model.inputs[0].standard_uncertainty;
+  CHECK(std::sqrt(squares) == Approx(expected).epsilon(0.1));  // 10 estimates of 19 degrees of freedom: sd 5 %
 }
 
 TEST_CASE("the GUM holds for an ISO test: Monte Carlo agrees", "[fast]") {
