@@ -71,7 +71,7 @@ RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedure
   CoastdownFile file = estimation::read_coastdowns(path, bad_rows);
   select_coastdowns(sessions, options.leave_out, file);
   if (file.data.runs.empty()) {
-    throw InputError({"no run is left", "command line", 0, "--leave-out", "", "runs that stay", ""});
+    throw InputError({"all runs are left out", "command line", 0, "--leave-out", "", "runs that stay", ""});
   }
   if (!options.mass_kg.has_value() && file.vehicle.has_value()) {
     options.mass_kg = file.vehicle->mass_kg;
@@ -141,7 +141,7 @@ RoadLoad calc_default_road_load(const DefaultRoadLoadOptions& options) {
   if (!options.tire_class.empty()) {
     const estimation::RrcClass& at = estimation::find_rrc_class(options.tire_class, options.rrc_N_per_kN);
     const double force_N = 1e-3 * at.value_N_per_kN * kStandardGravity_m_s2 * options.mass_kg;
-    rolling.rows.push_back({"class of " + options.tire_class, std::string(1, at.label)});
+    rolling.rows.push_back({"former label class (EC 1222/2009), " + options.tire_class, std::string(1, at.label)});
     rolling.rows.push_back({"its value", fmt::format("{:.1f} N/kN", at.value_N_per_kN)});
     rolling.rows.push_back({"rolling resistance by that value", fmt::format("{:.1f} N", force_N)});
     json["rolling_resistance"] = {{"tire_class", options.tire_class},

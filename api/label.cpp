@@ -18,23 +18,23 @@
 namespace rollrig {
 namespace {
 
-constexpr double kLabelPerKilo = 1e-3;  // N/N in a N/kN
+constexpr double kRatioPer_N_per_kN = 1e-3;  // N/N in one N/kN
 
 /// Refuses a coefficient that no tire has, and says which unit it may be in.
 void require_tire_rrc(double rrc_N_per_kN) {
-  const double rrc = rrc_N_per_kN * kLabelPerKilo;
+  const double rrc = rrc_N_per_kN * kRatioPer_N_per_kN;
   if (rrc >= models::kLowestTireRrc && rrc <= models::kHighestTireRrc) return;
   std::string hint;
   for (const auto& [factor, unit] : {std::pair{1e3, "N/N"}, std::pair{10.0, "percent"}, std::pair{0.1, "0.1 N/kN"}}) {
     const double in_unit = rrc * factor;
     if (hint.empty() && in_unit >= models::kLowestTireRrc && in_unit <= models::kHighestTireRrc) {
-      hint = fmt::format("; {:g} in {} is {:g} N/kN", rrc_N_per_kN, unit, in_unit / kLabelPerKilo);
+      hint = fmt::format("; {:g} in {} is {:g} N/kN", rrc_N_per_kN, unit, in_unit / kRatioPer_N_per_kN);
     }
   }
   throw InputError({fmt::format("no tire has an RRc of {:g} N/kN", rrc_N_per_kN), "command line", 0, "--rrc",
                     fmt::format("{:g}", rrc_N_per_kN),
-                    fmt::format("{:g} to {:g} N/kN, which is kg/t{}", models::kLowestTireRrc / kLabelPerKilo,
-                                models::kHighestTireRrc / kLabelPerKilo, hint),
+                    fmt::format("{:g} to {:g} N/kN, which is kg/t{}", models::kLowestTireRrc / kRatioPer_N_per_kN,
+                                models::kHighestTireRrc / kRatioPer_N_per_kN, hint),
                     ""});
 }
 
@@ -53,39 +53,56 @@ std::string read_label_symbol(const std::string& text) {
                     fmt::format("one of {}", fmt::join(models::list_speed_symbols(), " ")), ""});
 }
 
-/// Class and marks: what is given, else those of the tire.
-models::ServiceDescription find_label_service(const LabelInput& input, const std::optional<models::TireFile>& tire) {
+/// The tire's own marks, with what is given in place of them.
+models::ServiceDescription merge_service(const LabelInput& input, const std::optional<models::TireFile>& tire) {
   models::ServiceDescription service;
   if (tire.has_value() && tire->service.has_value()) service = *tire->service;
-  const bool is_known = service.load_index > 0;
   if (!input.load_index.empty()) service.load_index = scenarios::parse_load_index(input.load_index);
   if (!input.speed_symbol.empty()) service.speed_symbol = read_label_symbol(input.speed_symbol);
   service.is_severe_snow = service.is_severe_snow || input.is_severe_snow;
+  return service;
+}
+
+/// The class that is given, else that of the tire's file, else C3 by a load index that no other class has.
+models::TireClass choose_class(const LabelInput& input, const std::optional<models::TireFile>& tire, int load_index) {
+  const bool file_says = tire.has_value() && tire->service.has_value();
   if (!input.tire_class.empty()) {
-    service.tire_class = read_label_class(input.tire_class);
-  } else if (!is_known) {
-    if (service.load_index <= models::kHighestLightIndex) {
-      const std::string who = tire.has_value() ? fmt::format("tire '{}' has no [service_description]", tire->name)
-                                               : "an RRc alone does not tell the class of the tire";
-      throw InputError({who + ", which the bounds of the label depend on", "command line", 0, "--class", "",
-                        "--class C1 (passenger cars), C2 (vans) or C3 (trucks)", ""});
-    }
-    service.tire_class = models::TireClass::kC3;
+    const models::TireClass given = read_label_class(input.tire_class);
+    if (!file_says || given == tire->service->tire_class) return given;
+    throw InputError(
+        {fmt::format("tire '{}' is of class {} by its file", tire->name, name_of(tire->service->tire_class)),
+         "command line", 0, "--class", input.tire_class,
+         fmt::format("{}, or no --class", name_of(tire->service->tire_class)), ""});
   }
-  if (service.tire_class != models::TireClass::kC1) service.is_reinforced = false;
-  if (service.load_index == 0) return service;
-  const bool lacks_symbol = service.speed_symbol.empty() && service.tire_class == models::TireClass::kC3;
-  if (lacks_symbol) return service;
+  if (file_says) return tire->service->tire_class;
+  if (load_index > models::kHighestLightIndex) return models::TireClass::kC3;
+  const std::string who = tire.has_value() ? fmt::format("tire '{}' has no [service_description]", tire->name)
+                                           : "the class of the tire is not given";
+  throw InputError({who + ", which the bounds of the label depend on", "command line", 0, "--class", "",
+                    "--class C1 (passenger cars), C2 (vans) or C3 (trucks)", ""});
+}
+
+/// Throws InputError where class, load index and speed symbol contradict each other, as far as they are known.
+void require_class_fits(const models::ServiceDescription& service) {
+  const bool is_part_unknown = service.load_index == 0 || service.speed_symbol.empty();
+  if (service.tire_class == models::TireClass::kC3 && is_part_unknown) return;
   if (const auto mistake = models::find_class_mistake(service)) {
     throw InputError({mistake->what, "command line", 0, "--class", name_of(service.tire_class), mistake->allowed, ""});
   }
+}
+
+models::ServiceDescription find_label_service(const LabelInput& input, const std::optional<models::TireFile>& tire) {
+  models::ServiceDescription service = merge_service(input, tire);
+  service.tire_class = choose_class(input, tire, service.load_index);
+  if (service.tire_class != models::TireClass::kC1) service.is_reinforced = false;
+  require_class_fits(service);
   return service;
 }
 
 double find_label_rrc(const LabelInput& input, const std::optional<models::TireFile>& tire) {
   if (input.rrc_N_per_kN.has_value()) {
     require_tire_rrc(*input.rrc_N_per_kN);
-    return *input.rrc_N_per_kN * kLabelPerKilo;
+    return *input.rrc_N_per_kN * kRatioPer_N_per_kN;
   }
   if (tire.has_value()) return scenarios::simulate_iso_rrc(*tire);
   throw InputError({"neither an RRc nor a tire is given", "command line", 0, "--rrc", "",
@@ -96,7 +113,7 @@ double find_label_rrc_sd(const LabelInput& input, models::TireClass tire_class) 
   constexpr double kHighest_N_per_kN = 5.0;
   if (!input.rrc_sd_N_per_kN.has_value()) return models::get_highest_laboratory_sd(tire_class);
   const double sd_N_per_kN = *input.rrc_sd_N_per_kN;
-  if (sd_N_per_kN >= 0.0 && sd_N_per_kN <= kHighest_N_per_kN) return sd_N_per_kN * kLabelPerKilo;
+  if (sd_N_per_kN >= 0.0 && sd_N_per_kN <= kHighest_N_per_kN) return sd_N_per_kN * kRatioPer_N_per_kN;
   throw InputError({"--rrc-sd is out of range", "command line", 0, "--rrc-sd", fmt::format("{:g}", sd_N_per_kN),
                     fmt::format("0 to {:g} N/kN", kHighest_N_per_kN), ""});
 }
@@ -111,18 +128,19 @@ double calc_met_probability(double limit, double rrc, double rrc_sd) {
 void fill_label(const models::ServiceDescription& service, double rrc, double rrc_sd, TireLabel& label) {
   const models::TireClass tire_class = service.tire_class;
   label.tire_class = name_of(tire_class);
-  label.rrc_N_per_kN = rrc / kLabelPerKilo;
-  label.declared_rrc_N_per_kN = models::round_declared_rrc(rrc) / kLabelPerKilo;
-  label.rrc_sd_N_per_kN = rrc_sd / kLabelPerKilo;
+  label.rrc_N_per_kN = rrc / kRatioPer_N_per_kN;
+  label.declared_rrc_N_per_kN = std::round(1e4 * models::round_declared_rrc(rrc)) / 10.0;
+  label.rrc_sd_N_per_kN = rrc_sd / kRatioPer_N_per_kN;
   label.label_class = models::kLabelClasses[models::find_label_class(tire_class, rrc)];
   const auto probabilities = models::calc_label_probabilities(tire_class, rrc, rrc_sd);
   const auto bounds = models::list_label_bounds(tire_class);
   for (std::size_t i = 0; i < models::kLabelClassCount; ++i) {
     label.classes.push_back({models::kLabelClasses[i], {}, probabilities[i]});
-    if (i < bounds.size()) label.classes.back().upper_N_per_kN = bounds[i] / kLabelPerKilo;
+    if (i < bounds.size()) label.classes.back().upper_N_per_kN = bounds[i] / kRatioPer_N_per_kN;
   }
   for (const models::RrcLimit& limit : models::list_rrc_limits(tire_class, service.is_severe_snow)) {
-    label.limits.push_back({limit.stage, limit.rrc / kLabelPerKilo, calc_met_probability(limit.rrc, rrc, 0.0) > 0.5,
+    label.limits.push_back({limit.stage, limit.rrc / kRatioPer_N_per_kN,
+                            calc_met_probability(limit.rrc, rrc, 0.0) > 0.5,
                             calc_met_probability(limit.rrc, rrc, rrc_sd)});
   }
 }
@@ -181,7 +199,12 @@ TireLabel make_label(const LabelInput& input) {
   TireLabel label;
   const double rrc = find_label_rrc(input, tire);
   fill_label(service, rrc, find_label_rrc_sd(input, service.tire_class), label);
-  if (tire.has_value() && !input.rrc_N_per_kN.has_value()) label.warnings = tire->list_class_doubts();
+  if (tire.has_value()) {
+    label.warnings = tire->list_class_doubts();
+  } else if (service.tire_class == models::TireClass::kC1 && service.is_heavy()) {
+    label.warnings.push_back(
+        fmt::format("load index {} is above that of passenger car tires: is the class C3?", service.load_index));
+  }
   label.text = format_label(label, input.rrc_N_per_kN.has_value() ? "given" : "simulated test of ISO 28580");
   label.json = to_text(make_label_json(label));
   return label;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/erase.hpp>
 #include <cctype>
 #include <cmath>
 
@@ -34,14 +35,30 @@ double find_declared_rrc(const VectoTireInput& input, const models::TireFile& ti
        ""});
 }
 
+std::string without_spaces(const std::string& text) { return boost::algorithm::erase_all_copy(text, " "); }
+
+/// The size as VECTO writes it; spaces do not count.
 std::string find_vecto_dimension(const VectoTireInput& input, const models::TireFile& tire) {
   const std::string dimension = input.dimension.empty() ? tire.designation : input.dimension;
   const std::vector<std::string>& known = exports::list_vecto_dimensions();
-  if (std::find(known.begin(), known.end(), dimension) != known.end()) return dimension;
-  InputProblem problem = unknown_name("size of VECTO", dimension, known);
-  problem.file = "command line";
-  problem.key = "--dimension";
-  throw InputError(problem);
+  const auto found = std::find_if(known.begin(), known.end(), [&](const std::string& size) {
+    return without_spaces(size) == without_spaces(dimension);
+  });
+  if (found != known.end()) return *found;
+  throw InputError({fmt::format("VECTO has no tire size '{}'", dimension), "command line", 0, "--dimension", dimension,
+                    "a size of Regulation (EU) 2017/2400, Annex I, for trucks, buses and vans, such as 315/80 R22.5",
+                    nearest_name(dimension, known)});
+}
+
+/// Throws InputError where a date does not look as the schema has it; whether there is such a day, the schema says.
+void require_vecto_date(const std::string& date) {
+  constexpr const char* kFirst = "2017-01-01T00:00:00Z";
+  const std::string pattern = "dddd-dd-ddTdd:dd:ddZ";
+  const bool looks_right = std::equal(date.begin(), date.end(), pattern.begin(), pattern.end(),
+                                      [](char c, char p) { return p == 'd' ? '0' <= c && c <= '9' : c == p; });
+  if (looks_right && date >= kFirst) return;
+  throw InputError({fmt::format("'{}' is not a date and time in UTC from 2017 on", date), "command line", 0, "--date",
+                    date, fmt::format("{} or later, written so", kFirst), ""});
 }
 
 std::string take_or(const std::string& given, const std::string& fallback) { return given.empty() ? fallback : given; }
@@ -60,6 +77,7 @@ VectoTireFile make_vecto_tire(const VectoTireInput& input) {
   component.model = take_or(input.model, tire.name);
   component.certification_number = take_or(input.certification_number, "simulated, not certified");
   component.date = take_or(input.date, "2017-01-01T00:00:00Z");
+  require_vecto_date(component.date);
   component.app_version = fmt::format("rollrig {}", ROLLRIG_VERSION);
   component.dimension = find_vecto_dimension(input, tire);
   component.rrc = find_declared_rrc(input, tire);

@@ -2,6 +2,7 @@
 /// The parts of the command line, and what all programs of the project share: reading options, answering errors, exit
 /// statuses.
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <functional>
@@ -47,6 +48,17 @@ inline InputError usage_error(const std::string& what, const std::string& option
   return InputError({what, "command line", 0, option, value, allowed, ""});
 }
 
+/// As CLI::Range, which lets NaN pass.
+template <class Number>
+CLI::Validator in_range(Number lowest, Number highest) {
+  CLI::Validator range = CLI::Range(lowest, highest);
+  return range.operation([range, lowest, highest](std::string& text) {
+    Number value{};
+    const bool is_between = CLI::detail::lexical_cast(text, value) && lowest <= value && value <= highest;
+    return is_between ? std::string() : fmt::format("Value {} not in range {} to {}", text, lowest, highest);
+  });
+}
+
 /// CLI11's message, and the nearest option or subcommand when a word was not expected.
 InputProblem explain_usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
@@ -60,7 +72,7 @@ std::vector<std::string> list_subcommands(const CLI::App& app);
 /// --threads, 0 where it is not given.
 inline void add_threads(CLI::App& command, int& threads,
                         const std::string& doc = "Threads [as many as the machine has]") {
-  command.add_option("--threads", threads, doc)->check(CLI::Range(1, 1024));
+  command.add_option("--threads", threads, doc)->check(in_range(1, 1024));
 }
 
 /// For a command that does not share its work: throws InputError where mpirun or srun has started several processes,
@@ -78,7 +90,7 @@ inline void add_uncertainty_options(CLI::App& command, UncertaintyOptions& optio
 }
 
 /// --smallest-effect.
-void add_smallest_effect(CLI::App& command, double& percent);
+CLI::Option* add_smallest_effect(CLI::App& command, double& percent);
 
 /// --skip-bad-rows.
 inline void add_skip_bad_rows(CLI::App& command, BadRows& bad_rows) {
@@ -95,6 +107,8 @@ struct ComparisonOptions {
   void add_to(CLI::App& command);
   /// Throws InputError: an effect that does not exist, with the nearest; one that is asked for and left out.
   void check() const;
+  /// The second of these alone.
+  void check_apart() const;
 };
 
 /// Each adds one subcommand with its options to `app` and sets `action` when that subcommand is called.

@@ -238,7 +238,7 @@ void add_new_campaign(CLI::App& campaign, Action& action) {
   command->add_option("--design", input.design,
                       fmt::format("{} [grid; with --list, list; where something is drawn, monte_carlo]",
                                   fmt::join(campaign_designs(), ", ")));
-  command->add_option("--points", input.points, "Points of a design that draws")->check(CLI::Range(1, 10000000));
+  command->add_option("--points", input.points, "Points of a design that draws")->check(in_range(1, 10000000));
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }
 
@@ -319,7 +319,7 @@ void add_campaign_command(CLI::App& app, Action& action) {
     const auto [command, options] = add_command<SlurmOptions>(
         *campaign, action, "slurm", "Print a job array for Slurm, to be given to sbatch", &slurm_command);
     add_folder(*command, *options);
-    command->add_option("--tasks", options->tasks, "Tasks of the array")->required()->check(CLI::Range(1, 1000000));
+    command->add_option("--tasks", options->tasks, "Tasks of the array")->required()->check(in_range(1, 1000000));
   }
 }
 

@@ -48,9 +48,10 @@ void require_consistent(const DiagnoseOptions& options) {
                       "--loop and its folder beside it");
   }
   if (options.against.empty()) {
-    options.comparison.check();  // else the comparison of machines does, which knows more effects
+    options.comparison.check();
     return;
   }
+  options.comparison.check_apart();  // whether there are such effects says the comparison, which knows more of them
   if (options.set.empty() || !options.plan.empty() || !options.loop.empty()) {
     throw usage_error("two machines are compared, and no test is planned for one of them", "--against", options.against,
                       "the set of each machine, without --plan and --loop");
@@ -177,7 +178,7 @@ void add_diagnose_command(CLI::App& app, Action& action) {
   command->add_flag("--test-failed", options->test_failed,
                     "The planned test of the loop could not be done; its hours count all the same");
   options->comparison.add_to(*command);
-  add_smallest_effect(*command, options->smallest_effect_percent);
+  add_smallest_effect(*command, options->smallest_effect_percent)->excludes("--against");
   add_skip_bad_rows(*command, options->bad_rows);
   add_threads(*command, options->threads);
 }

@@ -25,7 +25,28 @@ constexpr const char* kNames[]{"A", "B", "C", "f0", "f1", "f2"};        // in N 
 constexpr const char* kNamesLbf[]{"A_lbf", "B_lbf", "C_lbf"};           // in lbf and mph
 
 constexpr const char* kOwnMethod = "least-squares";
-constexpr const char* kMethods[]{"wltp", "j2263", "j1263", "torque-meter"};  // as RoadLoadProcedureKind
+
+struct NamedProcedure {
+  const char* method;  // of --method
+  RoadLoadProcedureKind kind;
+};
+constexpr NamedProcedure kProcedures[]{{"wltp", RoadLoadProcedureKind::kWltp},
+                                       {"j2263", RoadLoadProcedureKind::kJ2263},
+                                       {"j1263", RoadLoadProcedureKind::kJ1263},
+                                       {"torque-meter", RoadLoadProcedureKind::kTorqueMeter}};
+
+/// nullptr for the method of least squares.
+const NamedProcedure* find_procedure(const std::string& method) {
+  const auto* found = std::find_if(std::begin(kProcedures), std::end(kProcedures),
+                                   [&](const NamedProcedure& one) { return method == one.method; });
+  return found == std::end(kProcedures) ? nullptr : found;
+}
+
+std::vector<std::string> list_methods() {
+  std::vector<std::string> methods{kOwnMethod};
+  for (const NamedProcedure& one : kProcedures) methods.emplace_back(one.method);
+  return methods;
+}
 
 struct FitRoadLoadOptions {
   std::string csv;
@@ -182,7 +203,10 @@ void require_options_of(bool procedure, const FitRoadLoadOptions& options) {
     refuse(options.yaw_degree.has_value(), "--yaw-degree", "--method j2263 beside it");
     return;
   }
-  constexpr const char* kOwnAlone = "the method least-squares, which has it";
+  constexpr const char* kOwnAlone = "--method least-squares";
+  refuse(!options.output.report.empty(), "--report", kOwnAlone);
+  refuse(options.uncertainty.budget, "--uncertainty", kOwnAlone);
+  refuse(options.uncertainty.monte_carlo_trials > 0, "--monte-carlo", kOwnAlone);
   refuse(options.per_mass, "--per-mass", kOwnAlone);
   refuse(options.drag_area_m2.has_value(), "--drag-area", kOwnAlone);
   refuse(!options.bounds.empty(), "--bounds", kOwnAlone);
@@ -193,11 +217,11 @@ void require_options_of(bool procedure, const FitRoadLoadOptions& options) {
          "--method torque-meter beside it");
 }
 
-RoadLoadProcedureOptions make_procedure_options(const FitRoadLoadOptions& options, std::size_t kind) {
+RoadLoadProcedureOptions make_procedure_options(const FitRoadLoadOptions& options, RoadLoadProcedureKind kind) {
   RoadLoadFitOptions masses;
   set_mass(options, masses);
   RoadLoadProcedureOptions to;
-  to.kind = static_cast<RoadLoadProcedureKind>(kind);
+  to.kind = kind;
   to.mass_kg = masses.mass_kg;
   to.rotating_mass_kg = masses.rotating_mass_kg;
   to.corrected_to_mass_kg = options.corrected_mass_kg;
@@ -213,12 +237,10 @@ RoadLoadProcedureOptions make_procedure_options(const FitRoadLoadOptions& option
 }
 
 int fit_road_load_command(const FitRoadLoadOptions& options) {
-  const auto method = std::find(std::begin(kMethods), std::end(kMethods), options.method);
-  const bool procedure = method != std::end(kMethods);
-  require_options_of(procedure, options);
-  if (procedure) {
-    const auto kind = static_cast<std::size_t>(method - std::begin(kMethods));
-    const RoadLoadProcedureOptions how = make_procedure_options(options, kind);
+  const NamedProcedure* procedure = find_procedure(options.method);
+  require_options_of(procedure != nullptr, options);
+  if (procedure != nullptr) {
+    const RoadLoadProcedureOptions how = make_procedure_options(options, procedure->kind);
     Output output(options.output);
     output.show(evaluate_road_load(options.csv, how, options.sessions, options.bad_rows));
     return kDone;
@@ -242,7 +264,7 @@ struct DefaultRoadLoadCommandOptions {
 
 int default_road_load_command(const DefaultRoadLoadCommandOptions& options) {
   if (!options.load.tire_class.empty() && options.load.rrc_N_per_kN <= 0.0) {
-    throw usage_error("a class of tires has several classes of rolling resistance", "--tire-class",
+    throw usage_error("a class of tires alone does not tell the class of rolling resistance", "--tire-class",
                       options.load.tire_class, "--rrc <N/kN> beside it");
   }
   Output output(options.output);
@@ -251,14 +273,14 @@ int default_road_load_command(const DefaultRoadLoadCommandOptions& options) {
 }
 
 void add_vehicle_options(CLI::App& command, FitRoadLoadOptions& options) {
-  const CLI::Range kMassRange(1.0, 1e6);  // Assumed: a heavy dump truck has 6e5 kg
+  const CLI::Validator kMassRange = in_range(1.0, 1e6);  // Assumed: a heavy dump truck has 6e5 kg
   command.add_option("--mass", options.mass_kg, "Test mass, kg")->check(kMassRange);
   command.add_option("--rotating-mass", options.rotating_mass_kg, "Mass that rotates, kg [3 % of --mass]")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(in_range(0.0, 1e6));
   command.add_option("--effective-mass", options.effective_mass_kg, "Both together, kg")->check(kMassRange);
   command.add_flag("--per-mass", options.per_mass, "A, B, C per unit of effective mass; no mass needed");
   command.add_option("--drag-area", options.drag_area_m2, "Cd A that the wind acts on, m2 [from C]")
-      ->check(CLI::Range(0.01, 1000.0));
+      ->check(in_range(0.01, 1000.0));
 }
 
 void add_procedure_options(CLI::App& command, FitRoadLoadOptions& options) {
@@ -266,35 +288,35 @@ void add_procedure_options(CLI::App& command, FitRoadLoadOptions& options) {
       .add_option("--method", options.method,
                   "least-squares, or by a procedure: wltp (coastdown times), j2263 (traces with anemometer), j1263 "
                   "(mean wind), torque-meter [least-squares]")
-      ->check(CLI::IsMember({kOwnMethod, kMethods[0], kMethods[1], kMethods[2], kMethods[3]}));
+      ->check(CLI::IsMember(list_methods()));
   command
       .add_option("--corrected-mass", options.corrected_mass_kg,
                   "Test mass TM to which a procedure corrects f0, kg [--mass]")
-      ->check(CLI::Range(1.0, 1e6));
+      ->check(in_range(1.0, 1e6));
   command
       .add_option("--wheel-radius", options.wheel_radius_m,
                   "Dynamic radius of the torque-meter method, m [from the column wheel_speed_Hz]")
-      ->check(CLI::Range(0.1, 2.0));
+      ->check(in_range(0.1, 2.0));
   command.add_option("--yaw-degree", options.yaw_degree, "Of the drag area of j2263 by yaw angle [2]")
-      ->check(CLI::Range(0, 4));
+      ->check(in_range(0, 4));
 }
 
 void add_method_options(CLI::App& command, FitRoadLoadOptions& options) {
   command.add_option("--reference-temperature", options.reference_temperature_degC, "degC [20]")
-      ->check(CLI::Range(-50.0, 60.0));
+      ->check(in_range(-50.0, 60.0));
   command
       .add_option("--reference-pressure", options.reference_pressure_kPa,
                   "Sets the air density, kPa [98.21; 100 of WLTP]")
-      ->check(CLI::Range(50.0, 110.0));
+      ->check(in_range(50.0, 110.0));
   command
       .add_option("--rolling-coefficient-temperature", options.rolling_fall_per_K,
                   "Fall of A and B with ambient, per K [0.0086]")
-      ->check(CLI::Range(0.0, 0.05));
+      ->check(in_range(0.0, 0.05));
   command.add_option("--speed-from", options.speed_from_km_h, "Lowest speed used, km/h [15]")
-      ->check(CLI::Range(0.0, 500.0));
-  command.add_option("--speed-to", options.speed_to_km_h, "Highest speed used, km/h")->check(CLI::Range(1.0, 500.0));
+      ->check(in_range(0.0, 500.0));
+  command.add_option("--speed-to", options.speed_to_km_h, "Highest speed used, km/h")->check(in_range(1.0, 500.0));
   command.add_option("--bin-width", options.bin_width_km_h, "Of the bins that a trace is cut into, km/h [5]")
-      ->check(CLI::Range(1.0, 50.0));
+      ->check(in_range(1.0, 50.0));
   command.add_option("--session", options.sessions, "Sessions used [all]");
   command.add_option("--leave-out", options.leave_out, "Runs that are not used, as 7 or session/7 [none]");
   command.add_option("--bounds", options.bounds,
@@ -327,17 +349,17 @@ void add_fit_default_road_load(CLI::App& fit, Action& action) {
   const auto [command, options] = add_command<DefaultRoadLoadCommandOptions>(
       fit, action, "default-road-load", "Default road load of the WLTP, without a measurement",
       &default_road_load_command);
-  command->add_option("--mass", options->load.mass_kg, "Test mass, kg")->required()->check(CLI::Range(1.0, 1e6));
+  command->add_option("--mass", options->load.mass_kg, "Test mass, kg")->required()->check(in_range(1.0, 1e6));
   command->add_option("--width", options->load.width_m, "Width of the vehicle, m")
       ->required()
-      ->check(CLI::Range(0.5, 5.0));
+      ->check(in_range(0.5, 5.0));
   command->add_option("--height", options->load.height_m, "Height of the vehicle, m")
       ->required()
-      ->check(CLI::Range(0.5, 5.0));
+      ->check(in_range(0.5, 5.0));
   CLI::Option* tire_class = command->add_option("--tire-class", options->load.tire_class, "C1, C2 or C3 [none]");
   command->add_option("--rrc", options->load.rrc_N_per_kN, "Rolling resistance of that tire, for its class, N/kN")
       ->needs(tire_class)
-      ->check(CLI::Range(1.0, 30.0));
+      ->check(in_range(1.0, 30.0));
   options->output.add_to(*command, "File for road_load.json, - for standard output", "Folder for road_load.json");
 }
 

@@ -19,10 +19,10 @@ void require_effects(const char* option, const std::vector<std::string>& names) 
 
 }  // namespace
 
-void add_smallest_effect(CLI::App& command, double& percent) {
-  command.add_option("--smallest-effect", percent,
-                     "Smallest effect of interest, 0 to 100 percent of the tire's loss or of the energy of drives; a "
-                     "smaller cause is called a trace [0.5]");
+CLI::Option* add_smallest_effect(CLI::App& command, double& percent) {
+  return command.add_option("--smallest-effect", percent,
+                            "Smallest effect of interest, 0 to 100 percent of the tire's loss or of the energy of "
+                            "drives; a smaller cause is called a trace [0.5]");
 }
 
 void ComparisonOptions::add_to(CLI::App& command) {
@@ -33,6 +33,10 @@ void ComparisonOptions::add_to(CLI::App& command) {
 void ComparisonOptions::check() const {
   require_effects("--without", without);
   require_effects("--only", only);
+  check_apart();
+}
+
+void ComparisonOptions::check_apart() const {
   for (const std::string& name : only) {
     if (std::find(without.begin(), without.end(), name) == without.end()) continue;
     throw usage_error("an effect is asked for and left out", "--without", name, "effects that --only does not name");

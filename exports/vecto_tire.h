@@ -6,7 +6,7 @@
 
 namespace rollrig::exports {
 
-/// The data of one tire, as VECTO's schema has them.
+/// The data of one tire, as VECTO's schema has them. P046 and the like are the parameters' identifiers there.
 struct VectoTire {
   std::string id;                    // of the Data element: a letter, then letters, digits, '-', '_', '.'
   std::string manufacturer;          // P230

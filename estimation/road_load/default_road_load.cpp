@@ -39,8 +39,12 @@ const RrcClass& find_rrc_class(const std::string& tire_class, double rrc_N_per_k
   const std::vector<RrcClass>& classes = list_rrc_classes(tire_class);
   const double to_one_decimal = 0.1 * std::round(10.0 * rrc_N_per_kN);
   constexpr double kSame = 1e-6;
-  return *std::find_if(classes.begin(), classes.end(),
-                       [to_one_decimal](const RrcClass& at) { return to_one_decimal <= at.most_N_per_kN + kSame; });
+  const auto found = std::find_if(classes.begin(), classes.end(), [to_one_decimal](const RrcClass& at) {
+    return to_one_decimal <= at.most_N_per_kN + kSame;
+  });
+  if (found != classes.end()) return *found;
+  throw InputError({"this is no rolling resistance coefficient", "command line", 0, "--rrc",
+                    fmt::format("{:g}", rrc_N_per_kN), "a number in N/kN", ""});
 }
 
 }  // namespace rollrig::estimation

@@ -61,8 +61,10 @@ std::vector<int> find_reference_speeds(const std::vector<ReferenceRun>& runs, co
   int most = 0;
   for (const auto& [speed, count] : counts) most = std::max(most, std::min(count.first, count.second));
   if (most < kFewestPairs) {
-    throw pairing_error(fmt::format("fewer than {} pairs of opposite headings: {}", kFewestPairs, most),
-                        "at least three runs of each heading at each reference speed");
+    throw pairing_error(
+        fmt::format("fewer than {} pairs of opposite headings are left, runs that repeat another left out: {}",
+                    kFewestPairs, most),
+        "at least three runs of each heading at each reference speed");
   }
   throw pairing_error(fmt::format("{} at {} only", rule.quantity, format_count(speeds.size(), "reference speed")),
                       fmt::format("at least {} reference speeds for f0, f1 and f2", kFewestSpeeds));

@@ -193,7 +193,7 @@ void select_torque_runs(const RoadLoadProcedureOptions& options, const std::vect
   file.runs.runs = std::move(kept);
   file.measurements = std::move(measurements);
   if (!file.measurements.empty()) return;
-  throw InputError({"no run is left", "command line", 0, sessions.empty() ? "--leave-out" : "--session", "",
+  throw InputError({"all runs are left out", "command line", 0, sessions.empty() ? "--leave-out" : "--session", "",
                     "a session of the file, and runs that stay", ""});
 }
 

@@ -13,7 +13,7 @@ namespace rollrig {
 /// What the class is to be found for. Errors name a member as the option of the command line: rrc_N_per_kN as "--rrc".
 struct LabelInput {
   std::optional<double> rrc_N_per_kN;     // of ISO 28580; absent: by the simulated test of the tire
-  std::optional<double> rrc_sd_N_per_kN;  // its standard uncertainty; absent: the highest of an aligned laboratory
+  std::optional<double> rrc_sd_N_per_kN;  // its standard uncertainty; absent: the preferred limit of sigma_m
   std::string tire_class;                 // "C1", "C2" or "C3"; empty: that of the tire, or of a load index from 122
   std::string load_index;                 // "91"; checked against the class
   std::string speed_symbol;               // "V"; likewise

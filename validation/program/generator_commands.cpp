@@ -142,7 +142,7 @@ void add_make_case(CLI::App& app, cli::Action& action) {
   cli::add_output_option(*command, "--truth", options->truth, "File for the truth, outside of the case");
   cli::add_output_option(*command, "--counterfactual", options->counterfactual,
                          "Folder for the same case without effect and without noise");
-  command->add_option("--runs", options->order.runs, "Number of runs [6]")->check(CLI::Range(1, kMostRuns));
+  command->add_option("--runs", options->order.runs, "Number of runs [6]")->check(cli::in_range(1, kMostRuns));
   command->add_flag("--noise-free", options->order.noise_free, "No errors of sensors, no drop-outs");
   command->add_flag("--nominal-base", options->order.nominal_base, "Base parameters as the files have them");
 }
@@ -156,7 +156,7 @@ CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const V
   options->order = defaults;
   ValidationSetOrder& order = options->order;
   const auto add_count = [command](const char* option, int& count, const char* what) {
-    command->add_option(option, count, fmt::format("{} [{}]", what, count))->check(CLI::Range(0, kMostCases));
+    command->add_option(option, count, fmt::format("{} [{}]", what, count))->check(cli::in_range(0, kMostCases));
   };
   command->add_option(
       "--kind", order.kind,
@@ -172,7 +172,8 @@ CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const V
       "--outside-list", options->outside_list,
       fmt::format("List of which these are: {} [{}]", fmt::join(kOutsideListNames, ", "), options->outside_list));
   command->add_option("--effects", options->effects, "Effects, as a,b,c [all of the catalog that the kind shows]");
-  command->add_option("--runs", order.runs, "Number of runs of a case, at most [6]")->check(CLI::Range(1, kMostRuns));
+  command->add_option("--runs", order.runs, "Number of runs of a case, at most [6]")
+      ->check(cli::in_range(1, kMostRuns));
   command->add_flag("--counterfactual", order.counterfactual, "Also each case without effect and without noise");
   cli::add_output_option(*command, "--out", order.out, "Folder of the validation set, new or empty")->required();
   return command;

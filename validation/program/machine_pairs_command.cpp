@@ -70,9 +70,9 @@ void add_pair_commands(CLI::App& app, cli::Action& action) {
       make_pairs_command);
   make->add_option("--seed", order->seed, "Decides all that is drawn [1]");
   make->add_option("--differing", order->differing, "Pairs that differ by one effect [200]")
-      ->check(CLI::Range(0, kMostPairs));
-  make->add_option("--none", order->none, "Pairs that do not differ [40]")->check(CLI::Range(0, kMostPairs));
-  make->add_option("--runs", order->runs, "Runs of each machine [3]")->check(CLI::Range(1, generator::kMostRuns));
+      ->check(cli::in_range(0, kMostPairs));
+  make->add_option("--none", order->none, "Pairs that do not differ [40]")->check(cli::in_range(0, kMostPairs));
+  make->add_option("--runs", order->runs, "Runs of each machine [3]")->check(cli::in_range(1, generator::kMostRuns));
   cli::add_threads(*make, order->threads, "Pairs at a time [as many as there are cores]");
   cli::add_output_option(*make, "--out", order->out, "Folder of the pairs, new or empty")->required();
   const auto [run, run_options] = cli::add_command<RunPairsOptions>(
