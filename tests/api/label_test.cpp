@@ -46,6 +46,7 @@ TEST_CASE("a label is found as the command finds it", "[fast]") {
   CHECK(label.json == run_program("label --rrc 8.4 --class C1 --json -").out);
   CHECK(label.label_class == "C");
   CHECK(label.limits[1].is_met);
+  CHECK(label.json.find("\"declared_rrc_N_per_kN\": 8.4,") != std::string::npos);  // not 8.4000000000000004
   input.rrc_sd_N_per_kN = 0.5;
   input.is_severe_snow = true;
   input.load_index = "91";
@@ -103,6 +104,8 @@ TEST_CASE("the tire of VECTO is that of the command, with RRc and load of the te
   input.dimension = "315/70 R22.5";
   const rollrig::VectoTireFile declared = rollrig::make_vecto_tire(input);
   CHECK(declared.rrc == Approx(0.0049));
+  input.dimension = "315/70R22.5";  // spaces do not count
+  CHECK(rollrig::make_vecto_tire(input).xml == declared.xml);
   CHECK(declared.xml.find("<RRCDeclared>0.0049</RRCDeclared>") != std::string::npos);
   input.rrc_N_per_kN = 49.0;
   CHECK_THROWS_AS(rollrig::make_vecto_tire(input), rollrig::InputError);

@@ -155,6 +155,21 @@ TEST_CASE("a value outside the tires, and one of an alignment that is not valid,
   CHECK_THAT(flatten(run.out), Contains("extrapolated") && Contains("not valid"));
 }
 
+TEST_CASE("an alignment that is over is doubted where it is applied, by today or by the day that is given", "[fast]") {
+  const TemporaryFolder folder;
+  write_file(folder.file("tires.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN"));
+  REQUIRE(run_program("align tires.csv --json a.json", folder.path()).status == 0);
+  const std::string until = json::parse(read_file(folder.file("a.json")))["valid_until"];
+  const auto apply = [&](const std::string& options, const std::string& before = "") {
+    const auto run = run_program("align --apply a.json --rrc 8.1 " + options, folder.path(), before);
+    CHECK(run.status == 0);
+    return flatten(run.out);
+  };
+  CHECK_THAT(apply("--on " + until), !Contains("was valid until"));
+  CHECK_THAT(apply("--on 2049-01-01"), Contains("was valid until " + until + ", which is before 2049-01-01"));
+  CHECK_THAT(apply("", "SOURCE_DATE_EPOCH=2500000000"), Contains("which is before 2049-03-22"));
+}
+
 TEST_CASE("the certificate has the numbers of the JSON, the hash of its file, and room for signatures", "[fast]") {
   const TemporaryFolder folder;
   const auto run = run_program(

@@ -201,6 +201,18 @@ TEST_CASE("a coefficient that no tire has is doubted aloud: units", "[fast]") {
   CHECK_THAT(estimation::doubt_points(in_kgf)[0], Catch::Contains("check that load and rolling resistance are in N"));
 }
 
+TEST_CASE("points that were copied are doubted aloud, a few that agree by chance are not", "[fast]") {
+  std::vector<RollingPoint> points = make_points();
+  points.push_back(points.front());
+  CHECK(estimation::doubt_points(points).empty());
+  points = make_points();
+  const std::vector<RollingPoint> copies = points;
+  points.insert(points.end(), copies.begin(), copies.end());
+  REQUIRE(estimation::doubt_points(points).size() == 1);
+  CHECK_THAT(estimation::doubt_points(points)[0],
+             Catch::Contains(std::to_string(copies.size()) + " of " + std::to_string(points.size())));
+}
+
 TEST_CASE("a multipoint law: exact points, and least squares by pressure", "[fast]") {
   // F = 2 + 0.006 Z + 100/P + 0.9 Z/P, P in kPa
   const auto law = [](double load_N, double pressure_kPa) {

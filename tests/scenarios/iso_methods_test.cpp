@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "scenarios/common/iso_methods.h"
+#include "sim/core/columns.h"
 #include "tests/support/drum_fixture.h"
 
 using namespace rollrig;
+using Catch::Contains;
 using tests::number;
 using tests::run;
 
@@ -160,6 +162,24 @@ TEST_CASE("reference tires have the label class of their product sheets", "[fast
     CHECK(number(outcome, "approval_stage") == 2.0);
   }
   CHECK(run("iso_28580", "a50").result.count("label_class") == 0);
+}
+
+TEST_CASE("a test off the standard has no label class, and says by what", "[fast]") {
+  const auto why = [](const std::vector<std::string>& settings) {
+    const auto outcome = run("iso_28580", "c1_205_55r16", settings);
+    CHECK(outcome.result.count("label_class") == 0);
+    return format_tables(outcome.sheet.list_tables());
+  };
+  CHECK_THAT(why({"rig.drum.diameter_m=1.2"}), Contains("drum's diameter"));
+  CHECK_THAT(why({"ambient_degC=35"}), Contains("ambient temperature"));
+  CHECK_THAT(why({"soak_h=0.5"}), Contains("soak"));
+  CHECK(run("iso_28580", "c1_205_55r16", {"rig.drum.diameter_m=1.7"}).result.count("label_class") == 1);
+}
+
+TEST_CASE("the maximum load of J2452 is that of the load index, and C1's load over 0.8 where there is none", "[fast]") {
+  CHECK(run("sae_j1269", "c3_315_80r22_5").result["maximum_load_N"] == Approx(4000.0 * 9.80665));
+  const auto without = tests::make_spec("sae_j1269", "a50", {}, "quasi_static");
+  CHECK(number(scenarios::run_scenario(without, {}), "maximum_load_N") == Approx(without.tire.iso_28580->load_N / 0.8));
 }
 
 TEST_CASE("corrected RRc of a van's tire hardly depends on the air, by the coefficient of its class", "[fast]") {
