@@ -95,7 +95,7 @@ const Json& find_key(const Json& document, const std::string& path, const std::s
 
 InputError make_key_error(const std::string& file, const std::string& path, const Json& value,
                           const std::string& allowed) {
-  return InputError({"a key of the alignment is wrong", file, 0, path, to_text(value, -1), allowed, ""});
+  return InputError({"a key of the alignment is wrong", file, 0, path, value.dump(), allowed, ""});
 }
 
 double read_number(const Json& document, const std::string& path, const std::string& file, double least) {

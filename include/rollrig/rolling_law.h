@@ -19,7 +19,7 @@ struct RollingLawOptions {
   std::string highway_cycle = "hwfet";
 };
 
-/// A fitted law. Its files: fit.json, residuals.csv.
+/// A fitted law. Its files: fit.json, residuals.csv. It has a test report.
 struct RollingLaw : Report {
   std::vector<ParameterEstimate> coefficients;
   std::vector<std::string> warnings;
