@@ -31,7 +31,8 @@ target_include_directories(rollrig_options INTERFACE "${PROJECT_SOURCE_DIR}")
 # Asserts inside Eigen's kernels cost a multiple of the arithmetic; nothing of Simbody depends on them.
 target_compile_definitions(rollrig_options INTERFACE $<$<CONFIG:Release>:EIGEN_NO_DEBUG>)
 
-# What does not compute: twice as fast to compile, and none the slower to use.
+# Libraries whose time goes into others: less time to compile, and none the slower to use. Fits and
+# diagnoses were measured to be as fast, and to give the same bytes.
 function(rollrig_optimize_little)
   foreach(target IN LISTS ARGN)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
