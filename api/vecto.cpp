@@ -58,7 +58,7 @@ void require_vecto_date(const std::string& date) {
                                       [](char c, char p) { return p == 'd' ? '0' <= c && c <= '9' : c == p; });
   if (looks_right && date >= kFirst) return;
   throw InputError({fmt::format("'{}' is not a date and time in UTC from 2017 on", date), "command line", 0, "--date",
-                    date, fmt::format("{} or later, written so", kFirst), ""});
+                    date, fmt::format("a time such as {}, or a later one", kFirst), ""});
 }
 
 std::string take_or(const std::string& given, const std::string& fallback) { return given.empty() ? fallback : given; }

@@ -159,7 +159,7 @@ Store::Store(const std::string& path, const std::string& definition) {
     database_ =
         std::make_unique<Database>(Database{path, open_alone(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)});
     SQLite::Database& file = database_->file;
-    // A file without items is nothing that a loss of power could destroy: making it need not wait for the disk.
+    // A loss of power cannot destroy results before there are any, so making the file does not wait for the disk.
     file.exec(is_new ? "PRAGMA synchronous = OFF" : "PRAGMA synchronous = NORMAL");
     file.exec("PRAGMA journal_mode = WAL");
     if (!has_tables(file, path, definition)) make_tables(file, definition);

@@ -120,7 +120,7 @@ ReportSection make_j1634_results(const scenarios::RunSpec& spec, const ReportVal
   }
   if (!scenarios::has_tire_loss(spec)) {
     results.parts.push_back(ReportText{
-        "Rolling resistance: not simulated by itself. The measured A, B, C of the vehicle have the tires in them."});
+        "Rolling resistance is not simulated separately: the measured A, B, C of the vehicle include the tires."});
     return results;
   }
   results.parts.push_back(make_sections_table(values, "/result/sections", "Rolling resistance",

@@ -118,7 +118,7 @@ std::string describe_pair_verdict(const PairFindings& findings) {
       break;
   }
   if (!findings.doubt.empty()) return "unexplained: the files are in doubt, before any physics";
-  return fmt::format("they differ, but in no compared effect, probability {}", unknown);
+  return fmt::format("they differ; no compared effect explains it, probability {}", unknown);
 }
 
 Table make_difference_table(const PairFindings& findings) {

@@ -223,7 +223,7 @@ void require_reference_line(double A1, double B1_N_per_kN) {
   // Assumed: far beyond the lines of reference laboratories, which are near 1 and 0
   constexpr double kLeastSlope = 0.5, kMostSlope = 2.0, kMostOffset_N_per_kN = 5.0;
   if (A1 >= kLeastSlope && A1 <= kMostSlope && std::abs(B1_N_per_kN) <= kMostOffset_N_per_kN) return;
-  throw InputError({"A1 and B1 are no line of a reference laboratory", "command line", 0, "--reference",
+  throw InputError({"A1 and B1 are not plausible for a reference laboratory", "command line", 0, "--reference",
                     fmt::format("{:g} {:g}", A1, B1_N_per_kN),
                     fmt::format("A1 near 1, {:g} to {:g}, and B1 near 0 N/kN, {:g} to {:g}", kLeastSlope, kMostSlope,
                                 -kMostOffset_N_per_kN, kMostOffset_N_per_kN),
@@ -237,7 +237,7 @@ void add_line_warnings(AlignmentResult& result) {
         "to its machine, not to the network");
   }
   if (result.sigma_m.sd <= 0.0) {
-    result.warnings.push_back("all measurements of each tire are equal: a machine repeats no value to the last digit");
+    result.warnings.push_back("all measurements of each tire are equal: real measurements scatter");
   }
   if (std::abs(result.line.A2 - 1.0) > 0.2) {
     result.warnings.push_back(

@@ -62,7 +62,7 @@ std::vector<int> find_reference_speeds(const std::vector<ReferenceRun>& runs, co
   for (const auto& [speed, count] : counts) most = std::max(most, std::min(count.first, count.second));
   if (most < kFewestPairs) {
     throw pairing_error(
-        fmt::format("fewer than {} pairs of opposite headings are left, runs that repeat another left out: {}",
+        fmt::format("fewer than {} pairs of opposite headings: {} (runs that repeat another are not used)",
                     kFewestPairs, most),
         "at least three runs of each heading at each reference speed");
   }

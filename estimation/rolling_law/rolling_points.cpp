@@ -149,8 +149,8 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
   const std::size_t copies = count_copies(points);
   if (static_cast<double>(copies) > kMostCopies * static_cast<double>(points.size())) {
     doubts.push_back(
-        fmt::format("{} of {} points are copies of others: if nobody measured them anew, all standard "
-                    "deviations are too small",
+        fmt::format("{} of {} points are copies of others: if they were not measured again, all standard deviations "
+                    "are too small",
                     copies, points.size()));
   }
   return doubts;

@@ -12,7 +12,8 @@
 #pragma GCC visibility push(default)
 namespace rollrig {
 
-/// A road load by a procedure. Its files: road_load.json, points.csv. It has no test report. Method: docs/road_load_procedures.md.
+/// A road load by a procedure. Its files: road_load.json, points.csv. It has no test report. Method:
+/// docs/road_load_procedures.md.
 /// Errors  InputError: a wrong file, no mass, one heading alone, fewer than three pairs, wind above the limits of the
 ///         procedure in too many runs; RunFailure: coefficients that the speeds do not decide
 RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOptions& options,

@@ -57,7 +57,7 @@ struct Outcome {
   /// The results as a measurement, for their uncertainty: of a scenario with has_uncertainty. A call may simulate
   /// again, and so may the evaluation of what it returns. The spec must outlive it. Throws RunFailure.
   std::function<estimation::MeasurementModel()> make_measurement_model;
-  std::optional<InputProblem> why_no_uncertainty;  // of such a scenario whose settings leave it without a model
+  std::optional<InputProblem> why_no_uncertainty;  // the error of asking for one that the settings do not allow
 };
 
 /// A setting as it is shown by `rollrig describe`.

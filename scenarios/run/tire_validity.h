@@ -29,7 +29,7 @@ std::vector<std::string> list_negative_losses(const models::TireFile& tire);
 /// Checked tests/scenarios/tire_validity_test.cpp
 void require_loss(const std::vector<const models::TireFile*>& tires, const sim::Recording<double>& recording);
 
-/// Whether the loss of tires is simulated. On the road, a measured road load of the vehicle has its tires in it.
+/// Whether the loss of tires is simulated. On the road, a measured road load of the vehicle includes its tires.
 bool has_tire_loss(const RunSpec& spec);
 
 }  // namespace rollrig::scenarios
