@@ -51,8 +51,8 @@ struct Rig {
 
 void multibody_rates(benchmark::State& state) {
   Rig rig;
-  rigs::MultibodyDrum drum(rig.corner, rig.spec.rig, rig.start, false);
-  evaluate_rates(state, drum);
+  const auto drum = rigs::make_multibody_drum(rig.corner, rig.spec.rig, rig.start, false);
+  evaluate_rates(state, *drum);
 }
 
 void quasi_static_rates(benchmark::State& state) {

@@ -2,9 +2,11 @@
 /// The drum rig as a multibody system in Simbody: drum on a pin, or a belt on a slider in its place, carriage on a
 /// vertical slider with its load cylinder, wheel and tire on a pin, contact element between wheel and drum.
 
+#include <memory>
+
 #include "rigs/drum_channels.h"
-#include "rigs/multibody_rig.h"
 #include "rigs/rig_file.h"
+#include "sim/ode_system.h"
 
 namespace rollrig::rigs {
 
@@ -27,17 +29,16 @@ struct DrumForces {
 /// deflection, corner states, integral of the motor's speed error).
 /// Energy    both ledgers of sim::EnergyAudit
 /// Checked   tests/rigs/multibody_drum_test.cpp, tests/rigs/fidelities_test.cpp
-class MultibodyDrum : public MultibodyRig {
+class MultibodyDrum : public sim::OdeSystem<double> {
  public:
-  MultibodyDrum(models::Corner<double>& corner, const RigFile& rig, RigStart<double> start, bool surface_recorded);
-
-  const models::Inflation<double>& inflation() const;
+  virtual const models::Inflation<double>& inflation() const = 0;
   /// Everything at one state, joint reactions included.
-  DrumForces find_forces(double time_s, const double* state);
-
- private:
-  class Implementation;
-  Implementation& implementation_;  // owned by MultibodyRig
+  virtual DrumForces find_forces(double time_s, const double* state) = 0;
 };
+
+/// `corner` outlives the drum.
+/// Errors  RunFailure: what Simbody refuses, and where its library cannot be loaded
+std::unique_ptr<MultibodyDrum> make_multibody_drum(models::Corner<double>& corner, const RigFile& rig,
+                                                   const RigStart<double>& start, bool surface_recorded);
 
 }  // namespace rollrig::rigs

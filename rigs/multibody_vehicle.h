@@ -3,10 +3,11 @@
 /// heave (and pitch on the road), an upright on its suspension for each wheel, wheel and roller on pins, contact
 /// elements between them.
 
+#include <memory>
 #include <vector>
 
-#include "rigs/multibody_rig.h"
 #include "rigs/vehicle_channels.h"
+#include "sim/ode_system.h"
 
 namespace rollrig::rigs {
 
@@ -39,17 +40,16 @@ struct VehicleForces {
 /// State    q, u of all joints, then z: slip deflection and corner states of each wheel, the driver's integral
 /// Energy   both ledgers of sim::EnergyAudit; work of the rollers counts against the simulated inertia's energy
 /// Checked  tests/rigs/multibody_vehicle_test.cpp, tests/rigs/vehicle_fidelities_test.cpp
-class MultibodyVehicle : public MultibodyRig {
+class MultibodyVehicle : public sim::OdeSystem<double> {
  public:
-  MultibodyVehicle(std::vector<models::Corner<double>>& corners, const VehicleLayout& layout, RigStart<double> start,
-                   bool surface_recorded);
-
   /// Everything at one state, joint reactions included.
-  VehicleForces find_forces(double time_s, const double* state);
-
- private:
-  class Implementation;
-  Implementation& implementation_;  // owned by MultibodyRig
+  virtual VehicleForces find_forces(double time_s, const double* state) = 0;
 };
+
+/// `corners`, one a wheel, outlive the vehicle.
+/// Errors  RunFailure: what Simbody refuses, and where its library cannot be loaded
+std::unique_ptr<MultibodyVehicle> make_multibody_vehicle(std::vector<models::Corner<double>>& corners,
+                                                         const VehicleLayout& layout, const RigStart<double>& start,
+                                                         bool surface_recorded);
 
 }  // namespace rollrig::rigs

@@ -50,8 +50,8 @@ void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, con
   models::Corner<double> corner(rigs::make_context(spec.tire, spec.rig, spec.baseline), spec.effects);
   const rigs::RigStart<double> start = make_drum_start(spec, conditions);
   if (spec.fidelity == Fidelity::kMultibody) {
-    rigs::MultibodyDrum drum(corner, spec.rig, start, program.surface_recorded());
-    outcome.recording = run_multibody(drum, program.program(), spec, progress, outcome.statistics);
+    const auto drum = rigs::make_multibody_drum(corner, spec.rig, start, program.surface_recorded());
+    outcome.recording = run_multibody(*drum, program.program(), spec, progress, outcome.statistics);
   } else {
     rigs::QuasiStaticDrum<double> drum(corner, start, program.surface_recorded(), rigs::Detail::kFull);
     outcome.recording =

@@ -28,6 +28,7 @@ const std::vector<std::string> kOrder{"include/rollrig",
                                       "sim",
                                       "models",
                                       "rigs",
+                                      "rigs/multibody",
                                       "measurements",
                                       "estimation",
                                       "scenarios",
@@ -64,9 +65,7 @@ const std::set<std::string> kOfGenerator{"sim/core", "validation", "validation/g
 const std::map<std::string, std::set<std::string>> kPackages{
     {"cvodes/|nvector/|sunmatrix/|sunlinsol/", {"sim/cvodes_integrator.cpp"}},
     {"toml\\+\\+/", {"sim/core/config.cpp"}},
-    {"Simbody.h",
-     {"models/wheel/wheel_contact.h", "rigs/multibody_drum.cpp", "rigs/multibody_vehicle.cpp", "rigs/rig_forces.h",
-      "rigs/simbody_system.h", "rigs/vehicle_bodies.h"}},
+    {"Simbody.h", {"rigs/multibody"}},
     {"CLI/", {"cli", "validation/program"}},
     {"nlohmann/", {"sim/core/json.h"}},
     {"ceres/",
@@ -87,8 +86,8 @@ const std::map<std::string, std::set<std::string>> kPackages{
 
 std::string folder_of(const std::string& path) {
   if (path.rfind("rollrig/", 0) == 0) return "include/rollrig";
-  for (const char* inner :
-       {"include/rollrig", "sim/core", "cli/mpi", "validation/generator", "validation/scoring", "validation/program"}) {
+  for (const char* inner : {"include/rollrig", "sim/core", "rigs/multibody", "cli/mpi", "validation/generator",
+                            "validation/scoring", "validation/program"}) {
     if (path.rfind(inner + std::string("/"), 0) == 0) return inner;
   }
   return path.substr(0, path.find('/'));

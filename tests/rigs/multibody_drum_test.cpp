@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 
 #include "tests/support/drum_fixture.h"
 
@@ -40,17 +41,17 @@ DrumFixture with_constant_coefficient(double rrc) {
 /// A rig that was run through a program and can be looked into at its end.
 struct DrumRun {
   models::Corner<double> corner;
-  rigs::MultibodyDrum drum;
+  std::unique_ptr<rigs::MultibodyDrum> drum;
   sim::Recording<double> recording;
   double end_s;
 
   DrumRun(const DrumFixture& fixture, const sim::Program& program)
-      : corner(fixture.corner()), drum(corner, fixture.rig, fixture.start(), false) {
-    sim::CvodesIntegrator integrator(drum, fixture.cvodes);
-    recording = sim::simulate<double>(drum, integrator, program);
+      : corner(fixture.corner()), drum(rigs::make_multibody_drum(corner, fixture.rig, fixture.start(), false)) {
+    sim::CvodesIntegrator integrator(*drum, fixture.cvodes);
+    recording = sim::simulate<double>(*drum, integrator, program);
     end_s = program.start_time_s + program.duration_s();
   }
-  rigs::DrumForces forces() { return drum.find_forces(end_s, recording.final_state.data()); }
+  rigs::DrumForces forces() { return drum->find_forces(end_s, recording.final_state.data()); }
 };
 
 }  // namespace
@@ -172,12 +173,12 @@ TEST_CASE("an explicit method with small steps follows the same motion", "[fast]
   // The rig's rates, integrated by an explicit method with a step far below every time constant.
   DrumFixture fixture;
   models::Corner<double> corner = fixture.corner();
-  rigs::MultibodyDrum drum(corner, fixture.rig, fixture.start(), false);
+  const auto drum = rigs::make_multibody_drum(corner, fixture.rig, fixture.start(), false);
   const sim::Segment first = tests::drum_segment(1.0, kDrumSpeed_m_s, kDrumSpeed_m_s, 200.0);
   const sim::Segment second = tests::drum_segment(0.2, kDrumSpeed_m_s, kDrumSpeed_m_s, 5400.0);
-  std::vector<double> y(drum.state_count());
-  drum.initialize(first, 0.0, y.data());
-  drum.begin_segment(second, 0.0, y.data(), nullptr);
+  std::vector<double> y(drum->state_count());
+  drum->initialize(first, 0.0, y.data());
+  drum->begin_segment(second, 0.0, y.data(), nullptr);
   std::vector<double> start = y;
   const std::size_t n = y.size();
   std::vector<double> k1(n), k2(n), k3(n), k4(n), stage(n);
@@ -186,22 +187,22 @@ TEST_CASE("an explicit method with small steps follows the same motion", "[fast]
     const double t = step * h;
     const auto at = [&](double dt, const std::vector<double>& k, double share, std::vector<double>& out) {
       for (std::size_t i = 0; i < n; ++i) stage[i] = y[i] + share * k[i];
-      drum.evaluate(t + dt, stage.data(), out.data(), nullptr);
+      drum->evaluate(t + dt, stage.data(), out.data(), nullptr);
     };
-    drum.evaluate(t, y.data(), k1.data(), nullptr);
+    drum->evaluate(t, y.data(), k1.data(), nullptr);
     at(h / 2, k1, h / 2, k2);
     at(h / 2, k2, h / 2, k3);
     at(h, k3, h, k4);
     for (std::size_t i = 0; i < n; ++i) y[i] += h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
   }
-  sim::CvodesIntegrator integrator(drum);
+  sim::CvodesIntegrator integrator(*drum);
   integrator.begin_run(0.0);
   std::copy(start.begin(), start.end(), integrator.state());
-  drum.begin_segment(second, 0.0, integrator.state(), nullptr);
+  drum->begin_segment(second, 0.0, integrator.state(), nullptr);
   integrator.begin_segment(0.0, nullptr);
   while (integrator.time_s() < 0.2) integrator.step(0.2);
-  const rigs::DrumForces explicit_forces = drum.find_forces(0.2, y.data());
-  const rigs::DrumForces cvodes_forces = drum.find_forces(0.2, integrator.state());
+  const rigs::DrumForces explicit_forces = drum->find_forces(0.2, y.data());
+  const rigs::DrumForces cvodes_forces = drum->find_forces(0.2, integrator.state());
   CHECK(cvodes_forces.contact_load_N == Approx(explicit_forces.contact_load_N).epsilon(1e-5));
   CHECK(cvodes_forces.motor_torque_Nm == Approx(explicit_forces.motor_torque_Nm).epsilon(1e-4));
   CHECK(cvodes_forces.wheel_speed_rad_s == Approx(explicit_forces.wheel_speed_rad_s).epsilon(1e-7));

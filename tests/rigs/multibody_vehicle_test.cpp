@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 
 #include "sim/core/error.h"
 #include "tests/support/hand_fed_corner.h"
@@ -23,17 +24,18 @@ constexpr double kVehicleSpeed_m_s = 80.0 / 3.6;
 /// A vehicle that was run through a program and can be looked into at its end.
 struct VehicleRun {
   std::vector<models::Corner<double>> corners;
-  rigs::MultibodyVehicle vehicle;
+  std::unique_ptr<rigs::MultibodyVehicle> vehicle;
   sim::Recording<double> recording;
   double end_s;
 
   VehicleRun(const VehicleFixture& fixture, const sim::Program& program)
-      : corners(fixture.corners()), vehicle(corners, fixture.layout(), fixture.start(), false) {
-    sim::CvodesIntegrator integrator(vehicle, fixture.cvodes);
-    recording = sim::simulate<double>(vehicle, integrator, program);
+      : corners(fixture.corners()),
+        vehicle(rigs::make_multibody_vehicle(corners, fixture.layout(), fixture.start(), false)) {
+    sim::CvodesIntegrator integrator(*vehicle, fixture.cvodes);
+    recording = sim::simulate<double>(*vehicle, integrator, program);
     end_s = recording.phases.back().end_s;
   }
-  rigs::VehicleForces forces() { return vehicle.find_forces(end_s, recording.final_state.data()); }
+  rigs::VehicleForces forces() { return vehicle->find_forces(end_s, recording.final_state.data()); }
 };
 
 sim::Program hold(double duration_s = 60.0) {
@@ -247,7 +249,7 @@ TEST_CASE("the temperatures of every wheel are asked whether they are possible, 
   const VehicleFixture fixture("dyno_1m2", true);
   const sim::Program stand = make_program({driving("stand", 5.0, 0.0, 0.0)});
   VehicleRun ran(fixture, stand);
-  check_each(ran.vehicle, ran.recording.final_state, ran.corners.size());
+  check_each(*ran.vehicle, ran.recording.final_state, ran.corners.size());
   std::vector<models::Corner<double>> corners = fixture.corners();
   const rigs::QuasiStaticVehicle<double> quasi_static(corners, fixture.layout(), fixture.start(), false);
   check_each(quasi_static, fixture.run_quasi_static(stand).final_state, corners.size());

@@ -38,19 +38,19 @@ VehicleFixture make_uneven_fixture(const char* rig, bool whole, std::size_t quar
 /// Forces of a drum that starts with a segment, at its first instant.
 rigs::DrumForces find_first_forces(const DrumFixture& fixture, const sim::Segment& segment) {
   models::Corner<double> corner = fixture.corner();
-  rigs::MultibodyDrum drum(corner, fixture.rig, fixture.start(), false);
-  std::vector<double> state(drum.state_count());
-  drum.initialize(segment, 0.0, state.data());
-  drum.begin_segment(segment, 0.0, state.data(), nullptr);
-  return drum.find_forces(0.0, state.data());
+  const auto drum = rigs::make_multibody_drum(corner, fixture.rig, fixture.start(), false);
+  std::vector<double> state(drum->state_count());
+  drum->initialize(segment, 0.0, state.data());
+  drum->begin_segment(segment, 0.0, state.data(), nullptr);
+  return drum->find_forces(0.0, state.data());
 }
 
 rigs::VehicleForces find_first_forces(const VehicleFixture& fixture, const sim::Phase& phase) {
   std::vector<models::Corner<double>> corners = fixture.corners();
-  rigs::MultibodyVehicle vehicle(corners, fixture.layout(), fixture.start(), false);
-  std::vector<double> state(vehicle.state_count());
-  vehicle.initialize(phase.segments.front(), 0.0, state.data());
-  return vehicle.find_forces(0.0, state.data());
+  const auto vehicle = rigs::make_multibody_vehicle(corners, fixture.layout(), fixture.start(), false);
+  std::vector<double> state(vehicle->state_count());
+  vehicle->initialize(phase.segments.front(), 0.0, state.data());
+  return vehicle->find_forces(0.0, state.data());
 }
 
 }  // namespace
@@ -100,13 +100,13 @@ TEST_CASE("the drum follows a ramp from its first moment: the motor gives the to
     up.name = "up";
     up.segments = {tests::drum_segment(ramp_s, kUnevenSpeed_m_s, end_m_s, kLoad_N)};
     models::Corner<double> corner = fixture.corner();
-    rigs::MultibodyDrum drum(corner, fixture.rig, fixture.start(), false);
-    sim::CvodesIntegrator integrator(drum, fixture.cvodes);
+    const auto drum = rigs::make_multibody_drum(corner, fixture.rig, fixture.start(), false);
+    sim::CvodesIntegrator integrator(*drum, fixture.cvodes);
     const auto recording = sim::simulate<double>(
-        drum, integrator, make_program({tests::rolling("hold", kHold_s, kUnevenSpeed_m_s, kLoad_N), up}));
+        *drum, integrator, make_program({tests::rolling("hold", kHold_s, kUnevenSpeed_m_s, kLoad_N), up}));
     INFO("after " << ramp_s << " s");
     // By the controller alone it would lag by up to 0.9/(3 e) = 0.11 m/s.
-    const rigs::DrumForces at = drum.find_forces(kHold_s + ramp_s, recording.final_state.data());
+    const rigs::DrumForces at = drum->find_forces(kHold_s + ramp_s, recording.final_state.data());
     CHECK(at.surface_speed_m_s == Approx(end_m_s).margin(1e-3));
   }
 }

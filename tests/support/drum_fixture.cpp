@@ -38,9 +38,9 @@ rigs::RigStart<double> DrumFixture::start() const {
 
 sim::Recording<double> DrumFixture::run_multibody(const sim::Program& program) const {
   models::Corner<double> at = corner();
-  rigs::MultibodyDrum drum(at, rig, start(), false);
-  sim::CvodesIntegrator integrator(drum, cvodes);
-  sim::Recording<double> recording = sim::simulate<double>(drum, integrator, program);
+  const auto drum = rigs::make_multibody_drum(at, rig, start(), false);
+  sim::CvodesIntegrator integrator(*drum, cvodes);
+  sim::Recording<double> recording = sim::simulate<double>(*drum, integrator, program);
   rigs::apply_trace_effects(at, recording);
   return recording;
 }

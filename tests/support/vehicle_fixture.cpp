@@ -39,9 +39,9 @@ rigs::RigStart<double> VehicleFixture::start() const {
 
 sim::Recording<double> VehicleFixture::run_multibody(const sim::Program& program) const {
   std::vector<models::Corner<double>> at = corners();
-  rigs::MultibodyVehicle system(at, layout(), start(), false);
-  sim::CvodesIntegrator integrator(system, cvodes);
-  sim::Recording<double> recording = sim::simulate<double>(system, integrator, program);
+  const auto system = rigs::make_multibody_vehicle(at, layout(), start(), false);
+  sim::CvodesIntegrator integrator(*system, cvodes);
+  sim::Recording<double> recording = sim::simulate<double>(*system, integrator, program);
   rigs::apply_trace_effects(at.front(), recording);
   return recording;
 }

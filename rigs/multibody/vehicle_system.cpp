@@ -1,17 +1,18 @@
-#include "rigs/multibody_vehicle.h"
+#include "rigs/multibody/vehicle_system.h"
 
 #include <Simbody.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "models/wheel/rolling_wheel.h"
-#include "rigs/simbody_system.h"
-#include "rigs/vehicle_bodies.h"
-#include "rigs/vehicle_drive.h"
+#include "rigs/multibody/guarded_rig.h"
+#include "rigs/multibody/simbody_system.h"
+#include "rigs/multibody/vehicle_bodies.h"
+#include "rigs/multibody/vehicle_drive.h"
 
 namespace rollrig::rigs {
 
-using models::ContactEvaluation;
 using models::Corner;
 using SimTK::Stage;
 
@@ -31,12 +32,10 @@ constexpr double kVehicleSpeedIntegralError_m = 1e-5;
 // Assumed: about the tolerance of drive cycles, 2 mph, and of SAE J1634 at low speed.
 constexpr SpeedHold kDriverHold{"the driver does not keep", 0.02, 0.5};
 
-}  // namespace
-
-class MultibodyVehicle::Implementation : public SimbodySystem {
+class VehicleSystem : public SimbodySystem {
  public:
-  Implementation(std::vector<Corner<double>>& corners, const VehicleLayout& layout, RigStart<double> start,
-                 bool surface_recorded)
+  VehicleSystem(std::vector<Corner<double>>& corners, const VehicleLayout& layout, RigStart<double> start,
+                bool surface_recorded)
       : SimbodySystem({make_vehicle_integrals(layout), make_vehicle_stores(),
                        make_vehicle_channels(layout, corners, surface_recorded)},
                       list_corners(corners), std::move(start), surface_recorded),
@@ -45,14 +44,14 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     Tires tires;
     for (const Corner<double>& corner : corners) tires.push_back(&corner.context().tire);
     bodies_ = add_vehicle_bodies(matter_, layout_, tires, contact_port_.vehicle_mass_factor);
-    std::vector<models::WheelContact> contacts;
+    std::vector<WheelContact> contacts;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const VehicleBodies::Wheel& wheel = bodies_.wheels[i];
       const auto surface = is_on_road() ? SimTK::GroundIndex : wheel.roller.getMobilizedBodyIndex();
-      contacts.emplace_back(matter_,
-                            models::WheelContact::Bodies{wheel.wheel.getMobilizedBodyIndex(), surface,
-                                                         wheel.upright.getMobilizedBodyIndex()},
-                            corners[i], find_contact_port(corners[i]).slip_compliance_per_N);
+      contacts.emplace_back(
+          matter_,
+          WheelContact::Bodies{wheel.wheel.getMobilizedBodyIndex(), surface, wheel.upright.getMobilizedBodyIndex()},
+          corners[i], find_contact_port(corners[i]).slip_compliance_per_N);
     }
     drive_ = new VehicleDrive(forces_, std::move(contacts), bodies_, layout_, present_);
     add_forces(drive_);
@@ -258,14 +257,20 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
   VehicleDrive* drive_ = nullptr;  // owned by the force subsystem
 };
 
-MultibodyVehicle::MultibodyVehicle(std::vector<Corner<double>>& corners, const VehicleLayout& layout,
-                                   RigStart<double> start, bool surface_recorded)
-    : MultibodyRig(guarded(
-          [&] { return std::make_unique<Implementation>(corners, layout, std::move(start), surface_recorded); })),
-      implementation_(static_cast<Implementation&>(system())) {}
+class GuardedVehicle : public GuardedRig<MultibodyVehicle, VehicleSystem> {
+ public:
+  using GuardedRig::GuardedRig;
 
-VehicleForces MultibodyVehicle::find_forces(double time_s, const double* state) {
-  return guarded([&] { return implementation_.find_forces(time_s, state); });
+  VehicleForces find_forces(double time_s, const double* state) override {
+    return guarded([&] { return system().find_forces(time_s, state); });
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<MultibodyVehicle> make_vehicle_system(std::vector<Corner<double>>& corners, const VehicleLayout& layout,
+                                                      const RigStart<double>& start, bool surface_recorded) {
+  return std::make_unique<GuardedVehicle>(corners, layout, start, surface_recorded);
 }
 
 }  // namespace rollrig::rigs

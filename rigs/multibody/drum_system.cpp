@@ -1,14 +1,16 @@
-#include "rigs/multibody_drum.h"
+#include "rigs/multibody/drum_system.h"
 
 #include <Simbody.h>
 
+#include <utility>
+
 #include "models/wheel/rolling_wheel.h"
-#include "rigs/drum_actuators.h"
-#include "rigs/simbody_system.h"
+#include "rigs/multibody/drum_actuators.h"
+#include "rigs/multibody/guarded_rig.h"
+#include "rigs/multibody/simbody_system.h"
 
 namespace rollrig::rigs {
 
-using models::ContactEvaluation;
 using models::Corner;
 using SimTK::MobilizedBody;
 using SimTK::Stage;
@@ -33,11 +35,9 @@ const Transform kBackwards(SimTK::Rotation(SimTK::Pi, SimTK::ZAxis));
 
 constexpr SpeedHold kMotorHold{"the motor does not hold", 0.02, 0.2};  // Assumed: a rig would trip
 
-}  // namespace
-
-class MultibodyDrum::Implementation : public SimbodySystem {
+class DrumSystem : public SimbodySystem {
  public:
-  Implementation(Corner<double>& corner, const RigFile& rig, RigStart<double> start, bool surface_recorded)
+  DrumSystem(Corner<double>& corner, const RigFile& rig, RigStart<double> start, bool surface_recorded)
       : SimbodySystem({make_drum_integrals(Detail::kFull), make_drum_stores(Detail::kFull),
                        make_drum_channels(corner.context().machine, corner.states(), surface_recorded, Detail::kFull)},
                       {&corner}, std::move(start), surface_recorded) {
@@ -51,7 +51,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
     surface_height_m_ = rig.is_curved() ? rig.lever_m() : 0.0;
     carriage_ = MobilizedBody::Slider(matter_.Ground(), kUpwards, make_block(rig.carriage.mass_kg), kUpwards);
     wheel_ = MobilizedBody::Pin(carriage_, kReversed, make_wheel(corner.context().tire), kReversed);
-    const models::WheelContact contact(
+    const WheelContact contact(
         matter_, {wheel_.getMobilizedBodyIndex(), drum_.getMobilizedBodyIndex(), carriage_.getMobilizedBodyIndex()},
         corner, port.slip_compliance_per_N);
     actuators_ = new DrumActuators(forces_, contact, {drum_, carriage_}, rig, present_);
@@ -176,14 +176,21 @@ class MultibodyDrum::Implementation : public SimbodySystem {
   DrumActuators* actuators_ = nullptr;  // owned by the force subsystem
 };
 
-MultibodyDrum::MultibodyDrum(Corner<double>& corner, const RigFile& rig, RigStart<double> start, bool surface_recorded)
-    : MultibodyRig(
-          guarded([&] { return std::make_unique<Implementation>(corner, rig, std::move(start), surface_recorded); })),
-      implementation_(static_cast<Implementation&>(system())) {}
+class GuardedDrum : public GuardedRig<MultibodyDrum, DrumSystem> {
+ public:
+  using GuardedRig::GuardedRig;
 
-const models::Inflation<double>& MultibodyDrum::inflation() const { return implementation_.inflation(); }
-DrumForces MultibodyDrum::find_forces(double time_s, const double* state) {
-  return guarded([&] { return implementation_.find_forces(time_s, state); });
+  const models::Inflation<double>& inflation() const override { return system().inflation(); }
+  DrumForces find_forces(double time_s, const double* state) override {
+    return guarded([&] { return system().find_forces(time_s, state); });
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<MultibodyDrum> make_drum_system(Corner<double>& corner, const RigFile& rig,
+                                                const RigStart<double>& start, bool surface_recorded) {
+  return std::make_unique<GuardedDrum>(corner, rig, start, surface_recorded);
 }
 
 }  // namespace rollrig::rigs

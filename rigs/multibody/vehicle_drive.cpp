@@ -1,4 +1,4 @@
-#include "rigs/vehicle_drive.h"
+#include "rigs/multibody/vehicle_drive.h"
 
 #include <cmath>
 #include <utility>
@@ -18,7 +18,7 @@ double fade(double speed_m_s) { return models::calc_standstill_fade(speed_m_s); 
 
 }  // namespace
 
-VehicleDrive::VehicleDrive(const SimTK::GeneralForceSubsystem& forces, std::vector<models::WheelContact> contacts,
+VehicleDrive::VehicleDrive(const SimTK::GeneralForceSubsystem& forces, std::vector<WheelContact> contacts,
                            const VehicleBodies& bodies, const VehicleLayout& layout, const PresentProgram& present)
     : RigForces(forces, std::move(contacts), 1),
       bodies_(bodies),

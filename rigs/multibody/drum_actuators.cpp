@@ -1,4 +1,4 @@
-#include "rigs/drum_actuators.h"
+#include "rigs/multibody/drum_actuators.h"
 
 namespace rollrig::rigs {
 
@@ -6,7 +6,7 @@ using SimTK::SpatialVec;
 using SimTK::State;
 using SimTK::Vec3;
 
-DrumActuators::DrumActuators(const SimTK::GeneralForceSubsystem& forces, models::WheelContact contact, Bodies bodies,
+DrumActuators::DrumActuators(const SimTK::GeneralForceSubsystem& forces, WheelContact contact, Bodies bodies,
                              const RigFile& rig, const PresentProgram& present)
     : RigForces(forces, {contact}, 2),
       bodies_(bodies),

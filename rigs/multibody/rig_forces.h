@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "models/wheel/wheel_contact.h"
+#include "rigs/multibody/wheel_contact.h"
 #include "rigs/rig_system.h"
 
 namespace rollrig::rigs {
@@ -16,17 +16,17 @@ namespace rollrig::rigs {
 /// States    z: those of each contact, then its own
 class RigForces : public SimTK::Force::Custom::Implementation {
  public:
-  const std::vector<models::WheelContact>& contacts() const { return contacts_; }
-  std::vector<models::WheelContact>& contacts() { return contacts_; }
+  const std::vector<WheelContact>& contacts() const { return contacts_; }
+  std::vector<WheelContact>& contacts() { return contacts_; }
 
   /// Indices among the z of the subsystem: of a contact's first state (its slip deflection), of the first of its own.
   SimTK::ZIndex contact_z(std::size_t wheel) const;
   SimTK::ZIndex own_z() const { return contact_z(contacts_.size()); }
 
   /// What is known of a contact at a state realized to Dynamics.
-  const models::ContactEvaluation& contact_evaluation(const SimTK::State& state, std::size_t wheel) const;
+  const ContactEvaluation& contact_evaluation(const SimTK::State& state, std::size_t wheel) const;
   /// The same, found anew, at a state realized to Velocity.
-  models::ContactEvaluation evaluate_contact(const SimTK::State& state, std::size_t wheel) const;
+  ContactEvaluation evaluate_contact(const SimTK::State& state, std::size_t wheel) const;
   double calc_slip_spring_J(const SimTK::State& state, std::size_t wheel) const;
 
   /// Energy of its own springs.
@@ -40,9 +40,9 @@ class RigForces : public SimTK::Force::Custom::Implementation {
   SimTK::Real calcPotentialEnergy(const SimTK::State& state) const override;
 
  protected:
-  using Contacts = std::vector<models::ContactEvaluation>;
+  using Contacts = std::vector<ContactEvaluation>;
 
-  RigForces(const SimTK::GeneralForceSubsystem& forces, std::vector<models::WheelContact> contacts, int own_states);
+  RigForces(const SimTK::GeneralForceSubsystem& forces, std::vector<WheelContact> contacts, int own_states);
 
   /// Recorded inputs of a wheel, with what the hub does, at a state realized to Velocity.
   virtual models::InputPort<double> find_recorded(const SimTK::State& state, std::size_t wheel) const = 0;
@@ -60,7 +60,7 @@ class RigForces : public SimTK::Force::Custom::Implementation {
   const SimTK::GeneralForceSubsystem& forces_;
 
  private:
-  std::vector<models::WheelContact> contacts_;
+  std::vector<WheelContact> contacts_;
   int own_states_;
   mutable SimTK::ZIndex first_z_;
   mutable SimTK::CacheEntryIndex cache_;

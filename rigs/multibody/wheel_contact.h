@@ -9,17 +9,17 @@
 #include "models/contact_law.h"
 #include "models/corner.h"
 
-namespace rollrig::models {
+namespace rollrig::rigs {
 
 /// Everything that is known of a contact at one state.
 struct ContactEvaluation {
-  Instant<double> now;
+  models::Instant<double> now;
   std::vector<double> corner_rates;
   double deflection_m = 0.0;
   double deflection_rate_m_s = 0.0;
   double loaded_radius_m = 0.0;
   double normal_N = 0.0;
-  SlipForce<double> slip;
+  models::SlipForce<double> slip;
   double couple_Nm = 0.0;
   double wheel_speed_rad_s = 0.0;
   double surface_speed_rad_s = 0.0;
@@ -46,20 +46,20 @@ class WheelContact {
     SimTK::MobilizedBodyIndex carrier;  // in which the wheel's bearing is
   };
 
-  WheelContact(const SimTK::SimbodyMatterSubsystem& matter, Bodies bodies, const Corner<double>& corner,
+  WheelContact(const SimTK::SimbodyMatterSubsystem& matter, Bodies bodies, const models::Corner<double>& corner,
                double slip_compliance_per_N);
 
-  const Corner<double>& corner() const { return *corner_; }
-  const TireParameters<double>& tire() const { return corner_->context().tire; }
+  const models::Corner<double>& corner() const { return *corner_; }
+  const models::TireParameters<double>& tire() const { return corner_->context().tire; }
   std::size_t state_count() const { return 1 + corner_->state_count(); }
   double slip_spring_N_per_m() const { return contact_.slip_spring_N_per_m; }
 
   /// State in which the tire was inflated; the caller invalidates the state's cache after a change.
-  void set_inflation(const Inflation<double>& inflation) { inflation_ = inflation; }
-  const Inflation<double>& inflation() const { return inflation_; }
+  void set_inflation(const models::Inflation<double>& inflation) { inflation_ = inflation; }
+  const models::Inflation<double>& inflation() const { return inflation_; }
 
   /// What really acts, from the inputs in now.recorded.
-  void apply_inputs(const double* z, Instant<double>& now) const;
+  void apply_inputs(const double* z, models::Instant<double>& now) const;
   /// All else, from the inputs in out.now.recorded, at a state realized to Velocity.
   void evaluate(const SimTK::State& state, const double* z, ContactEvaluation& out) const;
   void add_forces(const SimTK::State& state, const ContactEvaluation& at,
@@ -77,9 +77,9 @@ class WheelContact {
 
   const SimTK::SimbodyMatterSubsystem* matter_;
   Bodies bodies_;
-  const Corner<double>* corner_;
-  Inflation<double> inflation_;
-  ContactParameters<double> contact_;
+  const models::Corner<double>* corner_;
+  models::Inflation<double> inflation_;
+  models::ContactParameters<double> contact_;
 };
 
-}  // namespace rollrig::models
+}  // namespace rollrig::rigs

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "models/vehicle/vehicle.h"
-#include "rigs/rig_forces.h"
-#include "rigs/vehicle_bodies.h"
+#include "rigs/multibody/rig_forces.h"
+#include "rigs/multibody/vehicle_bodies.h"
 #include "rigs/vehicle_channels.h"
 
 namespace rollrig::rigs {
@@ -52,7 +52,7 @@ struct DriveEvaluation {
 class VehicleDrive : public RigForces {
  public:
   /// `bodies`, `layout` and `present` outlive it.
-  VehicleDrive(const SimTK::GeneralForceSubsystem& forces, std::vector<models::WheelContact> contacts,
+  VehicleDrive(const SimTK::GeneralForceSubsystem& forces, std::vector<WheelContact> contacts,
                const VehicleBodies& bodies, const VehicleLayout& layout, const PresentProgram& present);
 
   double tire_N_per_m(std::size_t wheel) const { return contacts()[wheel].tire().stiffness.vertical_N_per_m; }

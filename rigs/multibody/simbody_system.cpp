@@ -1,4 +1,4 @@
-#include "rigs/simbody_system.h"
+#include "rigs/multibody/simbody_system.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 /// Motor of the drum or belt and load cylinder of the carriage, with the wheel that they press on the drum.
 
 #include "rigs/drum_channels.h"
+#include "rigs/multibody/rig_forces.h"
 #include "rigs/rig_file.h"
-#include "rigs/rig_forces.h"
 
 namespace rollrig::rigs {
 
@@ -31,8 +31,8 @@ class DrumActuators : public RigForces {
     SimTK::MobilizedBody carriage;
   };
 
-  DrumActuators(const SimTK::GeneralForceSubsystem& forces, models::WheelContact contact, Bodies bodies,
-                const RigFile& rig, const PresentProgram& present);
+  DrumActuators(const SimTK::GeneralForceSubsystem& forces, WheelContact contact, Bodies bodies, const RigFile& rig,
+                const PresentProgram& present);
 
   /// Own states: integral of the speed error, then the cylinder's lag e.
   SimTK::ZIndex integral_z() const { return own_z(); }

@@ -1,4 +1,4 @@
-#include "rigs/rig_forces.h"
+#include "rigs/multibody/rig_forces.h"
 
 #include <utility>
 
@@ -7,8 +7,7 @@ namespace rollrig::rigs {
 using SimTK::State;
 using SimTK::ZIndex;
 
-RigForces::RigForces(const SimTK::GeneralForceSubsystem& forces, std::vector<models::WheelContact> contacts,
-                     int own_states)
+RigForces::RigForces(const SimTK::GeneralForceSubsystem& forces, std::vector<WheelContact> contacts, int own_states)
     : forces_(forces), contacts_(std::move(contacts)), own_states_(own_states) {}
 
 ZIndex RigForces::contact_z(std::size_t wheel) const {
@@ -19,7 +18,7 @@ ZIndex RigForces::contact_z(std::size_t wheel) const {
 
 void RigForces::realizeTopology(State& state) const {
   int count = own_states_;
-  for (const models::WheelContact& contact : contacts_) count += static_cast<int>(contact.state_count());
+  for (const WheelContact& contact : contacts_) count += static_cast<int>(contact.state_count());
   first_z_ = forces_.allocateZ(state, SimTK::Vector(count, 0.0));
   cache_ =
       forces_.allocateCacheEntry(state, SimTK::Stage::Dynamics, new SimTK::Value<Contacts>(Contacts(contacts_.size())));
@@ -34,12 +33,12 @@ models::InputPort<double> RigForces::find_acting(const State& state, std::size_t
   return now.acting;
 }
 
-const models::ContactEvaluation& RigForces::contact_evaluation(const State& state, std::size_t wheel) const {
+const ContactEvaluation& RigForces::contact_evaluation(const State& state, std::size_t wheel) const {
   return SimTK::Value<Contacts>::downcast(forces_.getCacheEntry(state, cache_)).get()[wheel];
 }
 
-models::ContactEvaluation RigForces::evaluate_contact(const State& state, std::size_t wheel) const {
-  models::ContactEvaluation at;
+ContactEvaluation RigForces::evaluate_contact(const State& state, std::size_t wheel) const {
+  ContactEvaluation at;
   at.now.recorded = find_recorded(state, wheel);
   contacts_[wheel].evaluate(state, &forces_.getZ(state)[contact_z(wheel)], at);
   return at;
@@ -66,7 +65,7 @@ void RigForces::realizeAcceleration(const State& state) const {
   const Contacts& at = SimTK::Value<Contacts>::downcast(forces_.getCacheEntry(state, cache_)).get();
   double* rates = &forces_.updZDot(state)[first_z_];
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    models::WheelContact::put_rates(at[i], rates);
+    WheelContact::put_rates(at[i], rates);
     rates += contacts_[i].state_count();
   }
   put_own_rates(state, at, rates);

@@ -1,23 +1,23 @@
-#include "models/wheel/wheel_contact.h"
+#include "rigs/multibody/wheel_contact.h"
 
 #include <algorithm>
 
 #include "models/wheel/rolling_wheel.h"
 
-namespace rollrig::models {
+namespace rollrig::rigs {
 
 using SimTK::SpatialVec;
 using SimTK::State;
 using SimTK::Vec3;
 
-WheelContact::WheelContact(const SimTK::SimbodyMatterSubsystem& matter, Bodies bodies, const Corner<double>& corner,
-                           double slip_compliance_per_N)
+WheelContact::WheelContact(const SimTK::SimbodyMatterSubsystem& matter, Bodies bodies,
+                           const models::Corner<double>& corner, double slip_compliance_per_N)
     : matter_(&matter),
       bodies_(bodies),
       corner_(&corner),
-      contact_(make_contact_parameters(corner.context().tire, slip_compliance_per_N)) {}
+      contact_(models::make_contact_parameters(corner.context().tire, slip_compliance_per_N)) {}
 
-void WheelContact::apply_inputs(const double* z, Instant<double>& now) const {
+void WheelContact::apply_inputs(const double* z, models::Instant<double>& now) const {
   now.inflation = inflation_;
   corner_->apply_inputs(z + 1, now);
 }
@@ -65,20 +65,20 @@ void WheelContact::evaluate(const State& state, const double* z, ContactEvaluati
   out.corner_rates.resize(corner_->state_count());
   apply_inputs(z, out.now);
   find_geometry(state, out);
-  Motion<double>& motion = out.now.motion;
+  models::Motion<double>& motion = out.now.motion;
   motion.acceleration_m_s2 = out.now.acting.acceleration_m_s2;
-  out.normal_N = calc_normal_force_N(contact_, out.deflection_m, out.deflection_rate_m_s);
+  out.normal_N = models::calc_normal_force_N(contact_, out.deflection_m, out.deflection_rate_m_s);
   motion.load_N = out.normal_N;
   const double slip_speed_m_s = motion.speed_m_s - out.wheel_speed_rad_s * out.loaded_radius_m;
-  out.slip = calc_slip_force(contact_, motion.speed_m_s, slip_speed_m_s, out.normal_N, z[0]);
+  out.slip = models::calc_slip_force(contact_, motion.speed_m_s, slip_speed_m_s, out.normal_N, z[0]);
   motion.longitudinal_force_N = out.slip.force_N;
   motion.slip_power_W = out.slip.dissipated_W;
   const double curvature_per_m = corner_->context().surface_curvature_per_m;
   motion.rolling_speed_m_s = (out.wheel_speed_rad_s + out.surface_speed_rad_s) * out.loaded_radius_m /
-                             calc_rolling_ratio(out.loaded_radius_m, curvature_per_m);
+                             models::calc_rolling_ratio(out.loaded_radius_m, curvature_per_m);
   corner_->calc_losses(x, out.now);
   corner_->calc_rates(x, out.now, out.corner_rates.data());
-  out.couple_Nm = calc_resistance_couple_Nm(out.now.rolling_resistance_N, out.loaded_radius_m, curvature_per_m);
+  out.couple_Nm = models::calc_resistance_couple_Nm(out.now.rolling_resistance_N, out.loaded_radius_m, curvature_per_m);
 }
 
 void WheelContact::add_forces(const State& state, const ContactEvaluation& at,
@@ -94,7 +94,7 @@ void WheelContact::add_forces(const State& state, const ContactEvaluation& at,
   const double curvature_per_m = corner_->context().surface_curvature_per_m;
   if (curvature_per_m > 0.0) {
     body_forces[bodies_.surface][0] -= at.now.parasitic_N / curvature_per_m * at.axis;
-  } else if (is_indoors(corner_->context().machine)) {
+  } else if (models::is_indoors(corner_->context().machine)) {
     body_forces[bodies_.surface][1] -= at.now.parasitic_N * at.tangent;
   } else {
     const Vec3 on_hub_Nm = at.now.parasitic_N * at.loaded_radius_m * at.axis;  // the wheel turns about -axis
@@ -109,11 +109,11 @@ void WheelContact::put_rates(const ContactEvaluation& at, double* z_rates) {
 }
 
 double WheelContact::calc_tire_spring_J(const ContactEvaluation& at) const {
-  return calc_spring_J(contact_.vertical_N_per_m, std::max(0.0, at.deflection_m));
+  return models::calc_spring_J(contact_.vertical_N_per_m, std::max(0.0, at.deflection_m));
 }
 
 double WheelContact::calc_slip_spring_J(const double* z) const {
-  return calc_spring_J(contact_.slip_spring_N_per_m, z[0]);
+  return models::calc_spring_J(contact_.slip_spring_N_per_m, z[0]);
 }
 
 double WheelContact::calc_tire_damper_W(const ContactEvaluation& at) const {
@@ -121,4 +121,4 @@ double WheelContact::calc_tire_damper_W(const ContactEvaluation& at) const {
   return (at.normal_N - spring_N) * at.deflection_rate_m_s;
 }
 
-}  // namespace rollrig::models
+}  // namespace rollrig::rigs

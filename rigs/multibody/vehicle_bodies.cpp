@@ -1,9 +1,9 @@
-#include "rigs/vehicle_bodies.h"
+#include "rigs/multibody/vehicle_bodies.h"
 
 #include <algorithm>
 
 #include "models/wheel/rolling_wheel.h"
-#include "rigs/simbody_system.h"
+#include "rigs/multibody/simbody_system.h"
 
 namespace rollrig::rigs {
 

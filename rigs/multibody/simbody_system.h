@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "models/corner.h"
-#include "rigs/rig_forces.h"
+#include "rigs/multibody/rig_forces.h"
 #include "sim/core/error.h"
 
 namespace rollrig::rigs {
@@ -93,9 +93,7 @@ class SimbodySystem : public RigSystem<double> {
   /// state of the rig's own.
   std::size_t slip_state(std::size_t wheel) const { return state_of(rig_forces_->contact_z(wheel)); }
   std::size_t own_state() const { return state_of(rig_forces_->own_z()); }
-  const models::ContactEvaluation& contact(std::size_t wheel) const {
-    return rig_forces_->contact_evaluation(state_, wheel);
-  }
+  const ContactEvaluation& contact(std::size_t wheel) const { return rig_forces_->contact_evaluation(state_, wheel); }
   const models::Corner<double>& corner(std::size_t wheel) const { return *corners_[wheel]; }
   /// Effects' and further nodes' states after those of rubber and gas; returns the place after them.
   double* put_further_states(std::size_t wheel, const double* y, double* values) const;
