@@ -4,8 +4,6 @@
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
-#include "sim/core/interrupt.h"
-#include "sim/core/parallel.h"
 #include "validation/files.h"
 #include "validation/generator/known_set.h"
 #include "validation/generator/observer.h"
@@ -84,14 +82,25 @@ SetUnknowns find_set_unknowns(const KnownSet& set) {
   return found;
 }
 
-Json describe_pair(const PairPlan& pair, const std::array<MadeSet, 2>& made, std::optional<double> d_prime) {
+/// A pair: its truth, and its files by name.
+Json make_pair_of_sets(const PairPlan& pair) {
   const auto or_null = [](const std::string& id) { return id.empty() ? Json(nullptr) : Json(id); };
-  return {{"effect", or_null(pair.effect)},
-          {"on", pair.effect.empty() ? Json(nullptr) : Json(pair.on == 0 ? "A" : "B")},
-          {"tire_effect", or_null(pair.tire_effect)},
-          {"d_prime", d_prime.has_value() ? Json(*d_prime) : Json(nullptr)},
-          {"a", made[0].truth},
-          {"b", made[1].truth}};
+  Files files;
+  std::array<Json, 2> truths;
+  for (std::size_t k = 0; k < kFolders.size(); ++k) {
+    MadeSet made = make_set(pair.sets[k], false);
+    for (auto& [file, content] : made.files) files[fmt::format("{}/{}", kFolders[k], file)] = std::move(content);
+    truths[k] = std::move(made.truth);
+  }
+  const bool differs = !pair.effect.empty();
+  Json truth = {{"effect", or_null(pair.effect)},
+                {"on", differs ? Json(pair.on == 0 ? "A" : "B") : Json(nullptr)},
+                {"tire_effect", or_null(pair.tire_effect)},
+                {"d_prime", differs ? Json(find_pair_detectability(pair)) : Json(nullptr)},
+                {"a", std::move(truths[0])},
+                {"b", std::move(truths[1])},
+                {"set_sha256", validation::hash_files(files)}};
+  return {{"name", pair.name}, {"truth", std::move(truth)}, {"files", std::move(files)}};
 }
 
 }  // namespace
@@ -121,44 +130,29 @@ double find_pair_detectability(const PairPlan& pair) {
   return Observer(unknowns).reduce(signal).norm();
 }
 
-void write_pairs(const PairsOrder& order, const std::function<void(const std::string&)>& hashed,
-                 const Progress& progress) {
+void write_pairs(const PairsOrder& order, const MakeItems& make_items,
+                 const std::function<void(const std::string&)>& hashed) {
   validation::require_new_folder(order.out, "--out");
   OutputFolder folder(order.out, false);
   const std::vector<PairPlan> pairs = draw_pairs(order);
-  std::vector<std::array<MadeSet, 2>> made(pairs.size());
-  std::vector<std::optional<double>> d_prime(pairs.size());
-  const auto make_pair = [&](std::size_t i) {
-    for (std::size_t k = 0; k < kFolders.size(); ++k) made[i][k] = make_set(pairs[i].sets[k], false);
-    if (!pairs[i].effect.empty()) d_prime[i] = find_pair_detectability(pairs[i]);
-    throw_if_interrupted();
-  };
-  parallel_for(pairs.size(), order.threads, make_pair, progress);
   Json truth = {{"format", validation::kPairsTruthFormat},
                 {"seed", order.seed},
                 {"differing", order.differing},
                 {"none", order.none},
                 {"runs", order.runs},
                 {"sets", Json::object()}};
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    std::map<std::string, std::string> files;
-    for (std::size_t k = 0; k < kFolders.size(); ++k) {
-      for (auto& [file, content] : made[i][k].files)
-        files[fmt::format("{}/{}", kFolders[k], file)] = std::move(content);
+  for (const PairPlan& pair : pairs) truth["sets"][pair.name] = nullptr;  // their order, in whichever they are made
+  const auto take = [&](const Json& made) {
+    const auto name = made.at("name").get<std::string>();
+    for (const auto& [file, content] : made.at("files").items()) {
+      folder.add(fmt::format("sets/{}/{}", name, file), content.get<std::string>());
     }
-    Json described = describe_pair(pairs[i], made[i], d_prime[i]);
-    described["set_sha256"] = validation::hash_files(files);
-    truth["sets"][pairs[i].name] = std::move(described);
-    for (const auto& [file, content] : files) folder.add(fmt::format("sets/{}/{}", pairs[i].name, file), content);
-  }
-  const std::string text = to_text(truth, 1);
-  const std::string sha256 = calc_sha256(text);
-  folder.add("truth.json", text);
-  folder.add("truth.sha256", sha256 + "  truth.json\n");
-  folder.flush();
-  hashed(sha256);
-  throw_if_interrupted();
-  folder.commit();
+    folder.flush();
+    truth["sets"][name] = made.at("truth");
+  };
+  make_items(
+      pairs.size(), [&](std::size_t i) { return make_pair_of_sets(pairs[i]); }, take);
+  commit_with_truth(folder, truth, hashed);
 }
 
 }  // namespace rollrig::generator

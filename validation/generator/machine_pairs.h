@@ -24,7 +24,6 @@ struct PairsOrder {
   int differing = 200;  // pairs with an effect on one machine, by kPairEffects in turn; sizes small, middle, large
   int none = 40;        // pairs without; every other one has an effect of the tire on both machines
   int runs = 3;         // of each machine
-  int threads = 0;      // pairs at a time; 0: as many as there are cores
   std::string out;
 };
 
@@ -50,7 +49,7 @@ std::vector<PairPlan> draw_pairs(const PairsOrder& order);
 double find_pair_detectability(const PairPlan& pair);
 
 /// Writes <out>/sets/<number>/a and b, and <out>/truth.json with its SHA-256 beside it.
-void write_pairs(const PairsOrder& order, const std::function<void(const std::string&)>& hashed,
-                 const Progress& progress);
+void write_pairs(const PairsOrder& order, const MakeItems& make_items,
+                 const std::function<void(const std::string&)>& hashed);
 
 }  // namespace rollrig::generator

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "sim/core/error.h"
@@ -140,6 +141,18 @@ Json describe_order(const ValidationSetOrder& order) {
   return truth;
 }
 
+/// Where the files of a case go, and in its JSON their contents.
+constexpr std::array<const char*, 2> kCaseFolders{"sets", "counterfactual"};
+
+/// A case: its truth, and its files by name.
+Json make_case(const SetOrder& order, bool with_counterfactual) {
+  MadeSet made = make_set(order, with_counterfactual);
+  made.truth["set_sha256"] = validation::hash_files(made.files);
+  return {{"truth", std::move(made.truth)},
+          {kCaseFolders[0], std::move(made.files)},
+          {kCaseFolders[1], std::move(made.counterfactual)}};
+}
+
 constexpr const char* kAllowed = "a validation set made by this version of rollrig_validation";
 
 InputError no_truth(const std::string& what) {
@@ -192,25 +205,29 @@ std::vector<SetOrder> draw_cases(const ValidationSetOrder& order) {
   return cases;
 }
 
-void write_validation_set(const ValidationSetOrder& order, const std::function<void(const std::string&)>& hashed,
-                          const Progress& progress) {
+void write_validation_set(const ValidationSetOrder& order, const MakeItems& make_items,
+                          const std::function<void(const std::string&)>& hashed) {
   validation::require_new_folder(order.out, "--out");
   OutputFolder folder(order.out, false);
-  const auto add = [&folder](const std::string& name, const Files& files) {
-    for (const auto& [file, content] : files) folder.add(name + "/" + file, content);
-  };
   const std::vector<SetOrder> cases = draw_cases(order);
   Json truth = describe_order(order);
-  for (const SetOrder& one : cases) {
-    MadeSet made = make_set(one, order.counterfactual);
-    add("sets/" + one.name, made.files);
-    if (order.counterfactual) add("counterfactual/" + one.name, made.counterfactual);
+  for (const SetOrder& one : cases) truth["sets"][one.name] = nullptr;  // their order, in whichever they are made
+  const auto take = [&](const Json& made) {
+    const auto name = made.at("truth").at("name").get<std::string>();
+    for (const char* kind : kCaseFolders) {
+      for (const auto& [file, content] : made.at(kind).items()) {
+        folder.add(fmt::format("{}/{}/{}", kind, name, file), content.get<std::string>());
+      }
+    }
     folder.flush();
-    made.truth["set_sha256"] = validation::hash_files(made.files);
-    truth["sets"][one.name] = std::move(made.truth);
-    progress(static_cast<double>(truth["sets"].size()) / static_cast<double>(cases.size()));
-    throw_if_interrupted();
-  }
+    truth["sets"][name] = made.at("truth");
+  };
+  make_items(
+      cases.size(), [&](std::size_t i) { return make_case(cases[i], order.counterfactual); }, take);
+  commit_with_truth(folder, truth, hashed);
+}
+
+void commit_with_truth(OutputFolder& folder, const Json& truth, const std::function<void(const std::string&)>& hashed) {
   const std::string text = to_text(truth, 1);
   const std::string sha256 = calc_sha256(text);
   folder.add("truth.json", text);

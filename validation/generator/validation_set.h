@@ -6,12 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/file_io.h"
 #include "validation/generator/measurement_set.h"
 
 namespace rollrig::generator {
 
 /// Called after each piece of work.
 using Progress = std::function<void(double share_done)>;
+
+/// Makes items, each of which is a function of its number: `make` is called for each, perhaps several at a time and in
+/// any order, and `take` with each item that is made, one at a time.
+using MakeItems = std::function<void(std::size_t count, const std::function<Json(std::size_t)>& make,
+                                     const std::function<void(const Json&)>& take)>;
 
 /// A campaign that a case may have.
 struct CampaignChoice {
@@ -51,8 +57,10 @@ std::vector<SetOrder> draw_cases(const ValidationSetOrder& order);
 
 /// Writes <out>/sets/<number>/, <out>/truth.json and <out>/truth.sha256, which sha256sum -c reads. `hashed` is told the
 /// SHA-256 of truth.json before any of it stands at its place.
-void write_validation_set(const ValidationSetOrder& order, const std::function<void(const std::string&)>& hashed,
-                          const Progress& progress);
+void write_validation_set(const ValidationSetOrder& order, const MakeItems& make_items,
+                          const std::function<void(const std::string&)>& hashed);
+/// Adds truth.json and truth.sha256 to the folder, tells `hashed`, and puts the folder at its place.
+void commit_with_truth(OutputFolder& folder, const Json& truth, const std::function<void(const std::string&)>& hashed);
 
 /// The order that makes a case of `truth` anew.
 /// Errors  InputError: no truth of this generator

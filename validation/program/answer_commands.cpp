@@ -56,7 +56,7 @@ int run_tasks(const campaigns::Ranks& ranks, const RunOptions& options, const st
     progress.update(std::nan(""),
                     fmt::format("{} of {} cases{}", done, of, order.part.count > 1 ? " of this process" : ""));
   };
-  const RunTally own = run_cases(order);
+  const AnswerTally own = run_cases(order);
   progress.clear();
   const auto sums = ranks.sum({own.kept, own.made, own.failures.size(), own.interrupted ? 1U : 0U});
   const bool is_stopped = sums[3] > 0;

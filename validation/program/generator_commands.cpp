@@ -12,6 +12,7 @@
 #include "validation/generator/options.h"
 #include "validation/generator/upper_bound.h"
 #include "validation/program/commands.h"
+#include "validation/program/made_items.h"
 
 namespace rollrig::validation {
 namespace {
@@ -73,6 +74,7 @@ struct MakeOptions {
   ValidationSetOrder order;
   std::string effects;
   std::string outside_list = kOutsideListNames.front();
+  int threads = 0;
 };
 
 int make_command(MakeOptions options) {
@@ -88,7 +90,7 @@ int make_command(MakeOptions options) {
     std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", order.out, sha256);
     flush_standard_output();
   };
-  write_validation_set(order, hashed, show_share_of_cases(line));
+  write_validation_set(order, make_by_campaign(options.threads, line, "cases"), hashed);
   return cli::kDone;
 }
 
@@ -175,6 +177,7 @@ CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const V
   command->add_option("--runs", order.runs, "Number of runs of a case, at most [6]")
       ->check(cli::in_range(1, kMostRuns));
   command->add_flag("--counterfactual", order.counterfactual, "Also each case without effect and without noise");
+  cli::add_threads(*command, options->threads, kThreads);
   cli::add_output_option(*command, "--out", order.out, "Folder of the validation set, new or empty")->required();
   return command;
 }

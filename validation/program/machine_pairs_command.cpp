@@ -9,6 +9,7 @@
 #include "sim/core/text.h"
 #include "validation/generator/machine_pairs.h"
 #include "validation/program/commands.h"
+#include "validation/program/made_items.h"
 #include "validation/scoring/machine_pairs.h"
 
 namespace rollrig::validation {
@@ -16,13 +17,18 @@ namespace {
 
 constexpr int kMostPairs = 2000;
 
-int make_pairs_command(const generator::PairsOrder& order) {
+struct MakePairsOptions {
+  generator::PairsOrder order;
+  int threads = 0;
+};
+
+int make_pairs_command(const MakePairsOptions& options) {
   cli::ProgressLine line("validation", false);
   const auto hashed = [&](const std::string& sha256) {
     line.clear();
-    std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", order.out, sha256);
+    std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", options.order.out, sha256);
   };
-  generator::write_pairs(order, hashed, [&line](double share_done) { line.update(share_done, "pairs"); });
+  generator::write_pairs(options.order, make_by_campaign(options.threads, line, "pairs"), hashed);
   return cli::kDone;
 }
 
@@ -37,9 +43,9 @@ int run_pairs_command(RunPairsOptions options) {
   options.order.progress = [&line](std::size_t done, std::size_t of) {
     line.update(std::nan(""), fmt::format("{} of {} pairs", done, of));
   };
-  const PairsTally tally = run_pairs(options.order);
+  const AnswerTally tally = run_pairs(options.order);
   line.clear();
-  for (const std::string& failure : tally.failures) std::cerr << wrap(failure, 2);
+  for (const auto& [number, why] : tally.failures) std::cerr << wrap(fmt::format("pair {}: {}", number, why), 2);
   if (!options.quiet) {
     std::cout << fmt::format("{}{} pairs answered in {}/: {} now, {} before\n", tally.interrupted ? "stopped: " : "",
                              tally.kept + tally.made, options.order.out, tally.made, tally.kept);
@@ -65,16 +71,17 @@ int score_pairs_command(const ScorePairsOptions& options) {
 }  // namespace
 
 void add_pair_commands(CLI::App& app, cli::Action& action) {
-  const auto [make, order] = cli::add_command<generator::PairsOrder>(
+  const auto [make, make_options] = cli::add_command<MakePairsOptions>(
       app, action, "make-pairs", "Pairs of machines that test the same tire, with an effect on one of them",
       make_pairs_command);
-  make->add_option("--seed", order->seed, "Decides all that is drawn [1]");
-  make->add_option("--differing", order->differing, "Pairs that differ by one effect [200]")
+  generator::PairsOrder& order = make_options->order;
+  make->add_option("--seed", order.seed, "Decides all that is drawn [1]");
+  make->add_option("--differing", order.differing, "Pairs that differ by one effect [200]")
       ->check(cli::in_range(0, kMostPairs));
-  make->add_option("--none", order->none, "Pairs that do not differ [40]")->check(cli::in_range(0, kMostPairs));
-  make->add_option("--runs", order->runs, "Runs of each machine [3]")->check(cli::in_range(1, generator::kMostRuns));
-  cli::add_threads(*make, order->threads, "Pairs at a time [as many as there are cores]");
-  cli::add_output_option(*make, "--out", order->out, "Folder of the pairs, new or empty")->required();
+  make->add_option("--none", order.none, "Pairs that do not differ [40]")->check(cli::in_range(0, kMostPairs));
+  make->add_option("--runs", order.runs, "Runs of each machine [3]")->check(cli::in_range(1, generator::kMostRuns));
+  cli::add_threads(*make, make_options->threads, "Pairs at a time [as many as there are cores]");
+  cli::add_output_option(*make, "--out", order.out, "Folder of the pairs, new or empty")->required();
   const auto [run, run_options] = cli::add_command<RunPairsOptions>(
       app, action, "run-pairs", "Compare the machines of each pair, the truth unopened; goes on where it stopped",
       run_pairs_command);

@@ -63,8 +63,12 @@ std::string answer_file(const std::string& folder, const std::string& number) {
   return (fs::path(folder) / (number + ".json")).string();
 }
 
+void write_answer_json(const std::string& folder, const std::string& number, const Json& answer) {
+  write_file_atomically(answer_file(folder, number), to_text(answer, 1));
+}
+
 void write_answer(const std::string& folder, const Answer& answer) {
-  write_file_atomically(answer_file(folder, answer.number), to_text(make_answer_json(answer), 1));
+  write_answer_json(folder, answer.number, make_answer_json(answer));
 }
 
 std::optional<Answer> find_answer(const std::string& folder, const std::string& number) {

@@ -37,7 +37,8 @@ Json make_answer_json(const Answer& answer);
 Answer read_answer_json(const Json& json);
 
 std::string answer_file(const std::string& folder, const std::string& number);
-/// Writes the file whole or not at all.
+/// Each writes the file whole or not at all.
+void write_answer_json(const std::string& folder, const std::string& number, const Json& answer);
 void write_answer(const std::string& folder, const Answer& answer);
 /// None where there is no file, or one that is no answer.
 std::optional<Answer> find_answer(const std::string& folder, const std::string& number);

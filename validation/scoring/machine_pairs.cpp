@@ -6,14 +6,12 @@
 #include <ctime>
 #include <filesystem>
 #include <map>
-#include <mutex>
 
 #include "diagnosis/output/machine_pair_output.h"
 #include "diagnosis/pair/machine_pair.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/interrupt.h"
-#include "sim/core/parallel.h"
 #include "sim/core/parse_json.h"
 #include "validation/files.h"
 #include "validation/scoring/answer.h"
@@ -60,6 +58,52 @@ Json answer_pair(const std::string& folder) {
   return diagnosis::make_pair_json(diagnosis::diagnose_pair(read("a"), read("b"), how));
 }
 
+/// Pairs to be compared; the result of an item is its answer.
+class PairItems : public AnsweredItems {
+ public:
+  explicit PairItems(const PairsRun& order) : order_(order), program_(hash_program()) {
+    for (const std::string& number : list_cases(order.set)) {
+      pairs_.push_back({number, hash_case(case_folder(order.set, number))});
+    }
+  }
+
+  std::size_t count() const override { return pairs_.size(); }
+  std::string number_of(std::size_t item) const override { return pairs_[item].number; }
+  Json describe(std::size_t item) const override {
+    return {{"pair", pairs_[item].number}, {"set_sha256", pairs_[item].set_sha256}};
+  }
+  Json carry_out(std::size_t item, std::uint64_t) const override {
+    Json answer = {{"format", kPairAnswerFormat},
+                   {"set_sha256", pairs_[item].set_sha256},
+                   {"program_sha256", program_},
+                   {"pair", nullptr},
+                   {"failure", nullptr}};
+    const double start_s = pair_cpu_s();
+    try {
+      answer["pair"] = answer_pair(case_folder(order_.set, pairs_[item].number));
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const std::exception& error) {
+      answer["failure"] = error.what();
+    }
+    answer["cpu_seconds"] = pair_cpu_s() - start_s;
+    return answer;
+  }
+  std::optional<Json> find_before(std::size_t item) const override {
+    return find_pair_answer(answer_file(order_.out, pairs_[item].number), pairs_[item].set_sha256, program_);
+  }
+
+ private:
+  struct Pair {
+    std::string number;
+    std::string set_sha256;
+  };
+
+  const PairsRun& order_;
+  std::string program_;
+  std::vector<Pair> pairs_;
+};
+
 PairTruth read_pair_truth(const Json& json) {
   PairTruth truth;
   if (json.at("effect").is_string()) truth.effect = json.at("effect").get<std::string>();
@@ -80,42 +124,10 @@ std::string describe_answer(const PairFindings& answer) {
 
 }  // namespace
 
-PairsTally run_pairs(const PairsRun& order) {
+AnswerTally run_pairs(const PairsRun& order) {
   fs::create_directories(order.out);
   require_writable(answer_file(order.out, "any"));
-  const std::vector<std::string> numbers = list_cases(order.set);
-  const std::string program = hash_program();
-  PairsTally tally;
-  std::mutex mutex;
-  try {
-    parallel_for(numbers.size(), order.threads, [&](std::size_t i) {
-      const std::string folder = case_folder(order.set, numbers[i]);
-      const std::string file = answer_file(order.out, numbers[i]);
-      const std::string set_sha256 = hash_case(folder);
-      const bool is_there = find_pair_answer(file, set_sha256, program).has_value();
-      if (!is_there) {
-        Json answer = {{"format", kPairAnswerFormat}, {"set_sha256", set_sha256}, {"program_sha256", program}};
-        const double start_s = pair_cpu_s();
-        try {
-          answer["pair"] = answer_pair(folder);
-        } catch (const Interrupted&) {
-          throw;
-        } catch (const std::exception& error) {
-          answer["pair"] = nullptr;
-          const std::lock_guard<std::mutex> lock(mutex);
-          tally.failures.push_back(fmt::format("pair {}: {}", numbers[i], error.what()));
-        }
-        answer["cpu_seconds"] = pair_cpu_s() - start_s;
-        write_file_atomically(file, to_text(answer, 1));
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      ++(is_there ? tally.kept : tally.made);
-      if (order.progress) order.progress(tally.kept + tally.made, numbers.size());
-    });
-  } catch (const Interrupted&) {
-    tally.interrupted = true;
-  }
-  return tally;
+  return carry_out_answers(PairItems(order), order.out, order.threads, order.progress);
 }
 
 PairJudgement judge_pair(const PairFindings& answer, const PairTruth& truth) {

@@ -9,6 +9,7 @@
 #include "include/rollrig/machine_pair.h"
 #include "sim/core/columns.h"
 #include "sim/core/json.h"
+#include "validation/scoring/answered_items.h"
 #include "validation/scoring/statistics.h"
 
 namespace rollrig::validation {
@@ -20,16 +21,9 @@ struct PairsRun {
   std::function<void(std::size_t done, std::size_t of)> progress = {};
 };
 
-struct PairsTally {
-  std::size_t kept = 0;  // answered before, by this program, of these files
-  std::size_t made = 0;
-  std::vector<std::string> failures;
-  bool interrupted = false;
-};
-
-/// Answers each pair that has no answer yet by this program, of these files, on one thread each. An answer is written
-/// as soon as it is there, so that a run that was interrupted goes on where it stopped. Opens nothing but the sets.
-PairsTally run_pairs(const PairsRun& order);
+/// Answers each pair that has no answer yet by this program, of these files, on one thread each; see
+/// carry_out_answers(). Opens nothing but the sets.
+AnswerTally run_pairs(const PairsRun& order);
 
 /// What a pair really is.
 struct PairTruth {

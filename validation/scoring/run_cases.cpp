@@ -4,13 +4,12 @@
 
 #include <chrono>
 #include <filesystem>
-#include <mutex>
+#include <optional>
 
 #include "measurements/measurement_set.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/interrupt.h"
-#include "sim/core/parallel.h"
 #include "validation/files.h"
 
 namespace fs = std::filesystem;
@@ -49,21 +48,46 @@ void diagnose(const std::string& folder, const AnswerBy& answer_by, Answer& answ
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The answer to a task, and whether it was there before: one that still holds, else one made and written now.
-std::pair<Answer, bool> answer_task(const RunOrder& order, const Task& task, const std::string& program) {
-  const std::string folder = case_folder(order.set, task.number);
-  Answer answer;
-  answer.number = task.number;
-  answer.set_sha256 = hash_case(folder);
-  answer.settings = {program, task.only, task.without};
-  std::optional<Answer> before = find_answer(order.out, task.number);
-  if (before && before->set_sha256 == answer.set_sha256 && before->settings == answer.settings) {
-    return {*std::move(before), true};
+/// Cases to be diagnosed; the result of an item is its answer.
+class AnswerItems : public AnsweredItems {
+ public:
+  explicit AnswerItems(const RunOrder& order) : order_(order) {
+    const std::string program = hash_program();
+    for (std::size_t i = 0; i < order.tasks.size(); ++i) {
+      if (!order.part.has(i)) continue;
+      const Task& task = order.tasks[i];
+      Answer& open = open_.emplace_back();
+      open.number = task.number;
+      open.set_sha256 = hash_case(case_folder(order.set, task.number));
+      open.settings = {program, task.only, task.without};
+    }
   }
-  diagnose(folder, order.answer_by, answer);
-  write_answer(order.out, answer);
-  return {std::move(answer), false};
-}
+
+  std::size_t count() const override { return open_.size(); }
+  Json describe(std::size_t item) const override {
+    const Answer& open = open_[item];
+    return {{"case", open.number},
+            {"set_sha256", open.set_sha256},
+            {"only", open.settings.only},
+            {"without", open.settings.without}};
+  }
+  Json carry_out(std::size_t item, std::uint64_t) const override {
+    Answer answer = open_[item];
+    diagnose(case_folder(order_.set, answer.number), order_.answer_by, answer);
+    return make_answer_json(answer);
+  }
+  std::string number_of(std::size_t item) const override { return open_[item].number; }
+  std::optional<Json> find_before(std::size_t item) const override {
+    const Answer& open = open_[item];
+    const std::optional<Answer> before = find_answer(order_.out, open.number);
+    if (!before || before->set_sha256 != open.set_sha256 || !(before->settings == open.settings)) return std::nullopt;
+    return Json{{"failure", before->failure}};
+  }
+
+ private:
+  const RunOrder& order_;
+  std::vector<Answer> open_;  // without their diagnoses
+};
 
 }  // namespace
 
@@ -82,27 +106,9 @@ std::vector<Task> plan_tasks(const std::string& set, const std::vector<std::stri
   return tasks;
 }
 
-RunTally run_cases(const RunOrder& order) {
+AnswerTally run_cases(const RunOrder& order) {
   make_folder(order.out);
-  std::vector<Task> own;
-  for (std::size_t i = 0; i < order.tasks.size(); ++i) {
-    if (order.part.has(i)) own.push_back(order.tasks[i]);
-  }
-  const std::string program = hash_program();
-  RunTally tally;
-  std::mutex mutex;
-  try {
-    parallel_for(own.size(), order.threads, [&](std::size_t i) {
-      const auto [answer, was_there] = answer_task(order, own[i], program);
-      const std::lock_guard<std::mutex> lock(mutex);
-      ++(was_there ? tally.kept : tally.made);
-      if (!answer.failure.empty()) tally.failures[answer.number] = answer.failure;
-      if (order.progress) order.progress(tally.kept + tally.made, own.size());
-    });
-  } catch (const Interrupted&) {
-    tally.interrupted = true;
-  }
-  return tally;
+  return carry_out_answers(AnswerItems(order), order.out, order.threads, order.progress);
 }
 
 }  // namespace rollrig::validation

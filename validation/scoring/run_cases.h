@@ -8,6 +8,7 @@
 
 #include "campaigns/part.h"
 #include "validation/scoring/answer.h"
+#include "validation/scoring/answered_items.h"
 
 namespace rollrig::validation {
 
@@ -36,13 +37,6 @@ struct RunOrder {
   AnswerBy answer_by = answer_by_diagnosis;
 };
 
-struct RunTally {
-  std::size_t kept = 0;                         // answered before, by this program, of these files
-  std::size_t made = 0;                         // answered now
-  std::map<std::string, std::string> failures;  // of the tasks of this process, why a case could not be diagnosed
-  bool interrupted = false;
-};
-
 /// A task for each case, all with the same comparison. Reads nothing but the names of the cases.
 std::vector<Task> plan_tasks(const std::string& set, const std::vector<std::string>& only,
                              const std::vector<std::string>& without);
@@ -67,10 +61,9 @@ void add_confusable(const std::vector<Truth>& truths, Twins& twins);
 std::vector<Task> plan_known_cause(const std::vector<Truth>& truths, KnownCause cause,
                                    const std::vector<std::string>& only, const Twins& twins = {});
 
-/// Diagnoses what has no answer yet by this program, with this comparison, of these files. Each answer is written as
-/// soon as it is there, so that a run that was interrupted goes on where it stopped. Opens nothing but the cases.
-/// Errors   InputError: the folder of the answers cannot be written to. A case that cannot be diagnosed is an answer
+/// Diagnoses what has no answer yet by this program, with this comparison, of these files; see carry_out_answers().
+/// Opens nothing but the cases.
 /// Checked  tests/validation/scoring/run_cases_test.cpp
-RunTally run_cases(const RunOrder& order);
+AnswerTally run_cases(const RunOrder& order);
 
 }  // namespace rollrig::validation

@@ -24,7 +24,7 @@ validation::RunOrder make_run_order(const ValidationSetFolder& made, const std::
 
 TEST_CASE("each set has an answer, and a set that cannot be diagnosed an answer that says so", "[fast]") {
   const ValidationSetFolder made;
-  const validation::RunTally tally = validation::run_cases(make_run_order(made));
+  const validation::AnswerTally tally = validation::run_cases(make_run_order(made));
   CHECK(tally.made == 3);
   CHECK(tally.failures.size() == 3);
   const auto answer = validation::find_answer(made.root + "/answers", "0002").value();
