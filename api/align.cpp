@@ -6,7 +6,10 @@
 #include <memory>
 #include <utility>
 
+#include "api/uncertainty_part.h"
 #include "estimation/alignment/alignment.h"
+#include "estimation/alignment/alignment_uncertainty.h"
+#include "estimation/uncertainty/uncertainty.h"
 #include "report/alignment_page.h"
 #include "sim/core/columns.h"
 #include "sim/core/error.h"
@@ -99,14 +102,19 @@ std::vector<report::ReportFile> list_alignment_inputs(const estimation::Alignmen
 
 }  // namespace
 
-Alignment align(const AlignmentInput& input) {
+Alignment align(const AlignmentInput& input, const UncertaintyOptions& uncertainty, const Progress& progress) {
+  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
   const auto file = std::make_shared<const estimation::AlignmentFile>(estimation::read_alignment_file(input));
   const auto result = std::make_shared<const estimation::AlignmentResult>(estimation::align_machine(*file, input));
   Alignment alignment;
   fill_numbers(*result, alignment);
   alignment.text = fmt::format("align   {}   classes {}\n", file->path, file->rules.classes) +
-                   format_tables(report::make_alignment_tables(*file, *result)) + format_warnings(result->warnings);
+                   format_tables(report::make_alignment_tables(*file, *result));
   Json json = estimation::make_alignment_json(*file, *result);
+  if (wants_uncertainty(uncertainty, true)) {
+    alignment.text += add_uncertainty(estimation::make_alignment_model(*result), uncertainty, progress, json);
+  }
+  alignment.text += format_warnings(result->warnings);
   alignment.json = to_text(json);
   alignment.make_files = [file, result, json = alignment.json] {
     return FolderFiles{{"alignment.json", json},
@@ -120,7 +128,9 @@ Alignment align(const AlignmentInput& input) {
   return alignment;
 }
 
-AlignedValue apply_alignment(const AlignedValueInput& input) {
+AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOptions& uncertainty,
+                             const Progress& progress) {
+  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
   check_value_input(input);
   const estimation::StoredAlignment stored = estimation::read_alignment_json(input.alignment);
   const estimation::UncertainValue aligned =
@@ -129,9 +139,15 @@ AlignedValue apply_alignment(const AlignedValueInput& input) {
   value.rrc = make_estimate("rrc_aligned", aligned.value, aligned.sd, aligned.coverage_factor, "N/kN");
   value.warnings = list_value_warnings(input, stored);
   value.text = fmt::format("align   {}\n", input.alignment) +
-               format_tables(report::make_aligned_value_tables(input.rrc_N_per_kN, input.measurements, aligned)) +
-               format_warnings(value.warnings);
-  value.json = to_text(make_value_json(input, stored, aligned, value.warnings));
+               format_tables(report::make_aligned_value_tables(input.rrc_N_per_kN, input.measurements, aligned));
+  Json json = make_value_json(input, stored, aligned, value.warnings);
+  if (wants_uncertainty(uncertainty, true)) {
+    const estimation::MeasurementModel model =
+        estimation::make_aligned_value_model(stored.line, input.rrc_N_per_kN, input.measurements);
+    value.text += add_uncertainty(model, uncertainty, progress, json);
+  }
+  value.text += format_warnings(value.warnings);
+  value.json = to_text(json);
   return value;
 }
 

@@ -1,12 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <utility>
 
+#include "api/report_files.h"
+#include "api/uncertainty_part.h"
 #include "estimation/road_load/checked_road_load.h"
 #include "estimation/road_load/default_road_load.h"
+#include "estimation/road_load/procedure_uncertainty.h"
 #include "estimation/road_load/road_load_procedure.h"
 #include "estimation/road_load/road_load_report.h"
+#include "estimation/uncertainty/uncertainty.h"
 #include "report/blocks.h"
 #include "report/road_load_procedure_page.h"
 #include "rollrig/road_load.h"
@@ -66,6 +72,10 @@ std::vector<std::string> doubt_runs(const RoadLoadProcedureOptions& options, Coa
   return texts;
 }
 
+std::string find_recording_role(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".csv" ? "recording" : "other file";
+}
+
 RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedureOptions options,
                                       const std::vector<std::string>& sessions, BadRows bad_rows) {
   CoastdownFile file = estimation::read_coastdowns(path, bad_rows);
@@ -92,7 +102,10 @@ RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedure
 }  // namespace
 
 RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOptions& options,
-                            const std::vector<std::string>& sessions, BadRows bad_rows) {
+                            const std::vector<std::string>& sessions, BadRows bad_rows,
+                            const UncertaintyOptions& uncertainty, const Progress& progress) {
+  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
+  const ReadRecorder recorder;
   const auto procedure = std::make_shared<RoadLoadProcedure>();
   try {
     *procedure = options.kind == RoadLoadProcedureKind::kTorqueMeter
@@ -109,11 +122,20 @@ RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOpti
   const std::string source = fmt::format("{}, {}", file, format_count(procedure->run_names.size(), "run"));
   result.text = wrap(fmt::format("fit road-load   {}   {}", source, report::title_of(procedure->kind)), 0) +
                 format_tables(report::make_procedure_tables(*procedure)) + format_warnings(procedure->warnings);
-  result.json = to_text(report::make_procedure_json(*procedure));
+  Json json = report::make_procedure_json(*procedure);
+  if (wants_uncertainty(uncertainty, true)) {
+    result.text += add_uncertainty(estimation::make_procedure_model(*procedure), uncertainty, progress, json);
+  }
+  result.json = to_text(json);
   result.make_files = [procedure, json = result.json] {
     return FolderFiles{{"road_load.json", json}, {"points.csv", report::write_procedure_points(*procedure)}};
   };
   result.make_page = [procedure, source] { return report::make_html(report::make_procedure_page(*procedure, source)); };
+  result.make_test_report = [procedure, file, json = std::move(json),
+                             files = list_report_files(recorder, &find_recording_role)] {
+    return report::make_report_html(report::make_procedure_report(*procedure, file, json, files),
+                                    report::find_report_date());
+  };
   return result;
 }
 

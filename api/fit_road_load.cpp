@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "api/report_files.h"
+#include "api/uncertainty_part.h"
 #include "estimation/road_load/checked_road_load.h"
 #include "estimation/road_load/road_load_report.h"
 #include "estimation/road_load/road_load_uncertainty.h"
@@ -100,18 +101,6 @@ std::string find_coastdown_role(const std::string& path) {
   return std::filesystem::path(path).extension() == ".csv" ? "coastdowns" : "other file";
 }
 
-/// Adds the uncertainty to the result that is there.
-void add_road_load_uncertainty(const CoastdownFile& file, const RoadLoadFitOptions& how, const RoadLoadFit& fit,
-                               const UncertaintyOptions& options, const Progress& progress, Json& json,
-                               RoadLoad& result) {
-  if (!options.budget && options.monte_carlo_trials == 0) return;
-  const estimation::Uncertainty uncertainty =
-      estimation::calc_uncertainty(estimation::make_road_load_model(file.data, how, fit),
-                                   {options.monte_carlo_trials, options.seed, options.threads}, progress);
-  json["uncertainty"] = estimation::make_uncertainty_json(uncertainty);
-  result.text += format_tables(estimation::make_uncertainty_tables(uncertainty));
-}
-
 }  // namespace
 
 RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
@@ -134,7 +123,10 @@ RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
   result.warnings = fit->warnings;
   result.text = format_road_load(path, *file, options, *fit, checks);
   Json json = estimation::make_road_load_json(*file, options, *fit, checks);
-  add_road_load_uncertainty(*file, options, *fit, uncertainty, progress, json, result);
+  if (wants_uncertainty(uncertainty, true)) {
+    result.text +=
+        add_uncertainty(estimation::make_road_load_model(file->data, options, *fit), uncertainty, progress, json);
+  }
   result.json = to_text(json);
   result.make_files = [file, fit, json = result.json] {
     return FolderFiles{{"road_load.json", json}, {"residuals.csv", estimation::write_road_load_residuals(*file, *fit)}};

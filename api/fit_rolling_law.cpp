@@ -4,7 +4,10 @@
 #include <filesystem>
 
 #include "api/report_files.h"
+#include "api/uncertainty_part.h"
 #include "estimation/rolling_law/rolling_output.h"
+#include "estimation/rolling_law/rolling_uncertainty.h"
+#include "estimation/uncertainty/uncertainty.h"
 #include "exports/coefficients.h"
 #include "report/rolling_law_page.h"
 #include "rollrig/rolling_law.h"
@@ -97,13 +100,13 @@ std::string find_point_file_role(const std::string& path) {
 
 /// What both fits have in common: numbers, warnings, text, files and the test report.
 template <class Fit>
-RollingLaw make_law(const char* command, const RollingTest& test, const Fit& fit, const std::vector<Table>& tables,
+RollingLaw make_law(const char* command, const RollingTest& test, const Fit& fit, const std::string& tables,
                     const Json& json, const ReadRecorder& recorder) {
   RollingLaw law;
   law.coefficients = fit.coefficients;
   law.warnings = join_warnings(test, fit.warnings);
   law.text = wrap(fmt::format("{}   {}   {}", command, test.path, format_count(test.points.size(), "point")), 0) +
-             format_tables(tables) + format_warnings(law.warnings);
+             tables + format_warnings(law.warnings);
   law.json = to_text(json);
   law.make_files = [json = law.json, residuals = estimation::write_rolling_residuals(fit.points)] {
     return FolderFiles{{"fit.json", json}, {"residuals.csv", residuals}};
@@ -114,9 +117,19 @@ RollingLaw make_law(const char* command, const RollingTest& test, const Fit& fit
   return law;
 }
 
+/// Adds what is asked of the uncertainty to the JSON, and returns its tables.
+template <class MakeModel>
+std::string add_law_uncertainty(const UncertaintyOptions& options, const estimation::RegressionStatistics& statistics,
+                                const MakeModel& make_model, const Progress& progress, Json& json) {
+  return wants_uncertainty(options, statistics.freedom > 0) ? add_uncertainty(make_model(), options, progress, json)
+                                                            : "";
+}
+
 }  // namespace
 
-RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options) {
+RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options, const UncertaintyOptions& uncertainty,
+                     const Progress& progress) {
+  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
   const ReadRecorder recorder;
   RollingTest test = read_points(path, options);
   const estimation::J2452Fit fit = fit_points(test, &estimation::fit_j2452);
@@ -125,13 +138,19 @@ RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options) 
     warn_of_reference(*at, true, test);
     reference = estimation::evaluate_reference(fit, *at, read_cycles(options));
   }
-  RollingLaw law = make_law("fit j2452", test, fit, report::make_j2452_tables(fit, reference),
-                            estimation::make_j2452_json(test, fit, reference), recorder);
+  Json json = estimation::make_j2452_json(test, fit, reference);
+  const std::string tables = format_tables(report::make_j2452_tables(fit, reference)) +
+                             add_law_uncertainty(
+                                 uncertainty, fit.statistics,
+                                 [&] { return estimation::make_j2452_model(test, fit, reference); }, progress, json);
+  RollingLaw law = make_law("fit j2452", test, fit, tables, json, recorder);
   law.make_page = [test, fit, reference] { return report::make_html(report::make_j2452_page(test, fit, reference)); };
   return law;
 }
 
-RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options, bool proportional) {
+RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options, bool proportional,
+                     const UncertaintyOptions& uncertainty, const Progress& progress) {
+  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
   const auto form = proportional ? estimation::MultipointForm::kProportional : estimation::MultipointForm::kBilinear;
   const ReadRecorder recorder;
   RollingTest test = read_points(path, options);
@@ -142,8 +161,13 @@ RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options, 
     warn_of_reference(*at, false, test);
     reference = {{at->load_N, at->pressure_Pa, fit.speed_m_s}, fit.estimate_force(at->load_N, at->pressure_Pa)};
   }
-  RollingLaw law = make_law("fit j1269", test, fit, report::make_multipoint_tables(fit, reference),
-                            estimation::make_multipoint_json(test, fit, reference), recorder);
+  Json json = estimation::make_multipoint_json(test, fit, reference);
+  const std::string tables =
+      format_tables(report::make_multipoint_tables(fit, reference)) +
+      add_law_uncertainty(
+          uncertainty, fit.statistics, [&] { return estimation::make_multipoint_model(test, fit, reference); },
+          progress, json);
+  RollingLaw law = make_law("fit j1269", test, fit, tables, json, recorder);
   law.make_page = [test, fit, reference] {
     return report::make_html(report::make_multipoint_page(test, fit, reference));
   };

@@ -6,6 +6,7 @@
 
 #include "api/data.h"
 #include "api/report_files.h"
+#include "api/uncertainty_part.h"
 #include "estimation/uncertainty/uncertainty.h"
 #include "report/page.h"
 #include "report/run_page.h"
@@ -83,16 +84,12 @@ std::string find_role(const scenarios::RunSpec& spec, const RunInput& input, con
 /// Adds the uncertainty to the result that is there.
 void add_run_uncertainty(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome,
                          const UncertaintyOptions& options, const Progress& progress, Json& json, RunResult& result) {
-  const bool is_asked = options.budget || options.monte_carlo_trials > 0;
-  if (outcome.why_no_uncertainty.has_value()) {
-    if (is_asked) throw InputError(*outcome.why_no_uncertainty);
-    return;
-  }
-  if (!is_asked && !options.budget_if_any) return;
-  const estimation::Uncertainty uncertainty = estimation::calc_uncertainty(
-      outcome.make_measurement_model(), {options.monte_carlo_trials, spec.seed, options.threads}, progress);
-  json["uncertainty"] = estimation::make_uncertainty_json(uncertainty);
-  result.text += format_tables(estimation::make_uncertainty_tables(uncertainty));
+  const bool is_possible = !outcome.why_no_uncertainty.has_value();
+  if (!wants_uncertainty(options, is_possible)) return;
+  if (!is_possible) throw InputError(*outcome.why_no_uncertainty);
+  UncertaintyOptions how = options;
+  how.seed = spec.seed;
+  result.text += add_uncertainty(outcome.make_measurement_model(), how, progress, json);
 }
 
 }  // namespace

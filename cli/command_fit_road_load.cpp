@@ -204,9 +204,6 @@ void require_options_of(bool procedure, const FitRoadLoadOptions& options) {
     return;
   }
   constexpr const char* kOwnAlone = "--method least-squares";
-  refuse(!options.output.report.empty(), "--report", kOwnAlone);
-  refuse(options.uncertainty.budget, "--uncertainty", kOwnAlone);
-  refuse(options.uncertainty.monte_carlo_trials > 0, "--monte-carlo", kOwnAlone);
   refuse(options.per_mass, "--per-mass", kOwnAlone);
   refuse(options.drag_area_m2.has_value(), "--drag-area", kOwnAlone);
   refuse(!options.bounds.empty(), "--bounds", kOwnAlone);
@@ -239,21 +236,22 @@ RoadLoadProcedureOptions make_procedure_options(const FitRoadLoadOptions& option
 int fit_road_load_command(const FitRoadLoadOptions& options) {
   const NamedProcedure* procedure = find_procedure(options.method);
   require_options_of(procedure != nullptr, options);
-  if (procedure != nullptr) {
-    const RoadLoadProcedureOptions how = make_procedure_options(options, procedure->kind);
-    Output output(options.output);
-    output.show(evaluate_road_load(options.csv, how, options.sessions, options.bad_rows));
-    return kDone;
-  }
-  const RoadLoadFitOptions how = make_fit_options(options);
-  Output output(options.output);
   UncertaintyOptions uncertainty = options.uncertainty;
-  if (!options.output.report.empty()) uncertainty.budget = true;
-  const RoadLoad fit = [&] {
-    ProgressLine progress("fit road-load", options.output.quiet);
-    return fit_road_load(options.csv, how, options.sessions, options.bad_rows, uncertainty, progress.callback());
+  uncertainty.budget_if_any = !options.output.report.empty();
+  const auto fit = [&](const Progress& progress) {
+    if (procedure == nullptr) {
+      return fit_road_load(options.csv, make_fit_options(options), options.sessions, options.bad_rows, uncertainty,
+                           progress);
+    }
+    return evaluate_road_load(options.csv, make_procedure_options(options, procedure->kind), options.sessions,
+                              options.bad_rows, uncertainty, progress);
+  };
+  Output output(options.output);
+  const RoadLoad load = [&] {
+    ProgressLine line("fit road-load", options.output.quiet);
+    return fit(line.callback());
   }();
-  output.show(fit);
+  output.show(load);
   return kDone;
 }
 

@@ -104,11 +104,11 @@ Table make_control_table(const AlignmentResult& result) {
   Table table{"Control tires: N/kN", {"tire", "n", "mean", "sd", "limits of 3 sd", "outside"}, {}};
   for (const ControlChart& chart : result.monitoring.charts) {
     const bool has_scatter = chart.rrc_N_per_kN.size() > 1;
-    table.rows.push_back(
-        {chart.tire, fmt::format("{}", chart.rrc_N_per_kN.size()), fmt::format("{:.3f}", chart.center_N_per_kN),
-         has_scatter ? fmt::format("{:.3f}", chart.sd_N_per_kN) : "-",
-         has_scatter ? fmt::format("{:.3f} to {:.3f}", chart.low_N_per_kN, chart.high_N_per_kN) : "-",
-         fmt::format("{}", chart.outside.size())});
+    table.rows.push_back({chart.tire, fmt::format("{}", chart.rrc_N_per_kN.size()),
+                          fmt::format("{:.3f}", chart.center_N_per_kN),
+                          has_scatter ? fmt::format("{:.3f}", chart.sd_N_per_kN) : "-",
+                          has_scatter ? fmt::format("{:.3f} to {:.3f}", chart.low_N_per_kN, chart.high_N_per_kN) : "-",
+                          fmt::format("{}", chart.outside.size())});
   }
   return table;
 }

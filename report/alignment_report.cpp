@@ -106,8 +106,10 @@ TestReport make_alignment_report(const estimation::AlignmentFile& file, const es
   report.sections = {make_alignment_laboratories(file),
                      make_alignment_result(result, values),
                      {"Tires", {make_alignment_tires(values)}},
-                     make_alignment_checks(result),
-                     make_alignment_uncertainty(result)};
+                     make_alignment_checks(result)};
+  std::vector<ReportSection> uncertainty = make_uncertainty_sections(values);
+  if (uncertainty.empty()) uncertainty.push_back(make_alignment_uncertainty(result));
+  for (ReportSection& section : uncertainty) report.sections.push_back(std::move(section));
   if (!result.monitoring.charts.empty()) {
     ReportSection controls{"Control tires", {}};
     for (const Table& table : make_control_tire_tables(result)) controls.parts.push_back(make_report_table(table));

@@ -79,20 +79,6 @@ ReportSection make_run_vehicle(const scenarios::RunSpec& spec) {
   return {"Vehicle", {form}};
 }
 
-ReportTable make_json_table(const ReportValues& values, const std::string& title, const std::string& place,
-                            const std::vector<std::pair<const char*, const char*>>& columns, const char* digits) {
-  ReportTable table{title, {}, {}, 0};
-  for (const auto& [key, heading] : columns) table.columns.push_back(heading);
-  const Json& list = values.json().at(Json::json_pointer(place));
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    table.rows.emplace_back();
-    for (const auto& [key, heading] : columns) {
-      table.rows.back().push_back(values.number(fmt::format("{}/{}/{}", place, i, key), digits));
-    }
-  }
-  return table;
-}
-
 }  // namespace
 
 TestReport make_coastdown_report(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome,

@@ -142,7 +142,7 @@ Table make_budget(const RoadLoadProcedure& procedure) {
     table.rows.push_back(row);
   };
   add("scatter of the runs", procedure.repeatability.diagonal().cwiseSqrt());
-  for (const estimation::SensorContribution& sensor : procedure.sensors) add(sensor.name, sensor.change);
+  for (const estimation::SensorContribution& sensor : procedure.sensors) add(sensor.sensor.name, sensor.change);
   return table;
 }
 
@@ -226,7 +226,7 @@ std::vector<Table> make_procedure_tables(const RoadLoadProcedure& procedure) {
 
 Json make_procedure_json(const RoadLoadProcedure& procedure) {
   const estimation::ReferenceCorrection& at = procedure.correction;
-  Json json = {{"format", "rollrig-road-load-procedure/1"}, {"procedure", name_of_procedure(procedure.kind)}};
+  Json json = {{"format", "rollrig-road-load-procedure/2"}, {"procedure", name_of_procedure(procedure.kind)}};
   for (int i = 0; i < 3; ++i) {
     json[kCoefficientKeys[i]] = in_file_unit(i, procedure.road_load(i));
     json[std::string(kCoefficientKeys[i]) + "_sd"] = in_file_unit(i, procedure.sd(i));
@@ -238,8 +238,8 @@ Json make_procedure_json(const RoadLoadProcedure& procedure) {
     json["as_tested"][key] = in_file_unit(i, procedure.as_tested(i));
     if (is_torque(procedure)) json["running_resistance"][key] = in_file_unit(i, procedure.corrected(i));
   }
-  json["uncertainty"] = make_list(procedure.sensors, [](const estimation::SensorContribution& sensor) {
-    Json entry = {{"from", sensor.name}};
+  json["sensors"] = make_list(procedure.sensors, [](const estimation::SensorContribution& sensor) {
+    Json entry = {{"from", sensor.sensor.name}};
     for (int i = 0; i < 3; ++i) {
       entry[std::string(kCoefficientKeys[i]) + "_sd"] = std::abs(in_file_unit(i, sensor.change(i)));
     }

@@ -7,6 +7,7 @@
 #include "estimation/road_load/road_load_procedure.h"
 #include "include/rollrig/result.h"
 #include "report/page.h"
+#include "report/test_report.h"
 #include "sim/core/columns.h"
 
 namespace rollrig::report {
@@ -21,6 +22,10 @@ Json make_procedure_json(const estimation::RoadLoadProcedure& procedure);
 
 /// `points.csv`: measured and fitted resistance by run and speed.
 std::string write_procedure_points(const estimation::RoadLoadProcedure& procedure);
+
+/// The test report, with the numbers of its JSON.
+TestReport make_procedure_report(const estimation::RoadLoadProcedure& procedure, const std::string& source,
+                                 const Json& json, const std::vector<ReportFile>& files);
 
 Page make_procedure_page(const estimation::RoadLoadProcedure& procedure, const std::string& source);
 

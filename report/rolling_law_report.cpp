@@ -102,12 +102,16 @@ ReportSection make_law_reference(const ReportValues& values) {
   return {"Standard reference condition", {form, forces}};
 }
 
-ReportSection make_law_uncertainty() {
-  return {"Uncertainty",
-          {ReportText{"The intervals hold what the points scatter about the law. An error that all points share is not "
-                      "in them: add it from the certificates of the instruments."},
-           ReportForm{{make_blank("Calibration of force or torque"), make_blank("Calibration of load"),
-                       make_blank("Calibration of pressure"), make_blank("Alignment to a reference machine")}}}};
+/// What the report of a fit without a budget says in its place, and the blanks of every one.
+ReportSection make_law_instruments(bool has_budget) {
+  return {
+      has_budget ? "Instruments" : "Uncertainty",
+      {ReportText{has_budget ? "The intervals of the coefficients and forces above hold what the points scatter about "
+                               "the law. The uncertainty budgets also hold errors that all points share."
+                             : "The intervals hold what the points scatter about the law. An error that all points "
+                               "share is not in them: add it from the certificates of the instruments."},
+       ReportForm{{make_blank("Calibration of force or torque"), make_blank("Calibration of load"),
+                   make_blank("Calibration of pressure"), make_blank("Alignment to a reference machine")}}}};
 }
 
 }  // namespace
@@ -132,8 +136,9 @@ TestReport make_rolling_law_report(const estimation::RollingTest& test, const Js
        {ReportText{fmt::format("{}, in N, kPa{}.", json["law"].get<std::string>(), is_j2452 ? " and km/h" : "")},
         make_law_coefficients(values), make_law_residuals(values)}},
       make_law_reference(values),
-      make_law_uncertainty(),
-      make_law_points(values)};
+      make_law_instruments(values.has("/uncertainty"))};
+  for (ReportSection& section : make_uncertainty_sections(values)) report.sections.push_back(std::move(section));
+  report.sections.push_back(make_law_points(values));
   report.files = files;
   return report;
 }

@@ -224,6 +224,20 @@ ReportField make_field(const std::string& label, const std::string& text) { retu
 
 ReportField make_blank(const std::string& label) { return {label, {}}; }
 
+ReportTable make_json_table(const ReportValues& values, const std::string& title, const std::string& place,
+                            const std::vector<std::pair<const char*, const char*>>& columns, const char* digits) {
+  ReportTable table{title, {}, {}, 0};
+  for (const auto& [key, heading] : columns) table.columns.push_back(heading);
+  const Json& list = values.json().at(Json::json_pointer(place));
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    table.rows.emplace_back();
+    for (const auto& [key, heading] : columns) {
+      table.rows.back().push_back(values.number(fmt::format("{}/{}/{}", place, i, key), digits));
+    }
+  }
+  return table;
+}
+
 ReportTable make_report_table(const Table& table) {
   ReportTable made{table.title, table.columns, {}, 0};
   if (made.columns.empty() && !table.rows.empty()) made.columns.resize(table.rows.front().size());

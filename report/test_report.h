@@ -5,6 +5,7 @@
 /// and the page says from which place of it (data-json, a JSON pointer).
 
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -96,6 +97,9 @@ ReportField make_field(const std::string& label, const std::string& text);
 ReportField make_blank(const std::string& label);
 /// A table of texts.
 ReportTable make_report_table(const Table& table);
+/// The entries of a list in the JSON, a row each; `columns` are keys with their headings.
+ReportTable make_json_table(const ReportValues& values, const std::string& title, const std::string& place,
+                            const std::vector<std::pair<const char*, const char*>>& columns, const char* digits);
 
 /// Sections of budgets and Monte Carlo, as make_uncertainty_json() of estimation/uncertainty writes them at
 /// "/uncertainty". None where the JSON has none.

@@ -279,21 +279,14 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   if (!models::is_ambient_correction_valid(ambient_K)) {
     outcome.warnings.push_back("the correction to 25 degC holds from 20 to 30 degC only");
   }
-  if (settings.method.value != kTorqueMethod) {
-    outcome.why_no_uncertainty = InputProblem{"the uncertainty budget is that of the torque method",
-                                              "settings",
-                                              0,
-                                              "method",
-                                              settings.method.value,
-                                              kTorqueMethod,
-                                              ""};
-    return results;
-  }
-  outcome.make_measurement_model = [&spec, settings, cycles] {
+  MethodReadings readings = read_method(settings.method.value, outcome.recording, spec, cycles.back(),
+                                        find_coast_band_m_s(spec, settings.conditions));
+  readings.misalignment_rad = settings.spindle_misalignment_rad;
+  outcome.make_measurement_model = [&spec, settings, cycles, readings] {
     const auto simulate = [&](double speed_m_s, double pressure_Pa) {
       return simulate_resistance_N(settings, spec, speed_m_s, pressure_Pa);
     };
-    return make_iso_model(spec, cycles, *settings.conditions.pressure_Pa, settings.accuracies, simulate);
+    return make_iso_model(spec, cycles, readings, *settings.conditions.pressure_Pa, settings.accuracies, simulate);
   };
   return results;
 }

@@ -136,7 +136,11 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     results.economy = evaluate_economy(spec, layout, results.sections, settings.label_factor, outcome);
   }
   warn_of_map(spec, layout, outcome);
-  outcome.make_measurement_model = [&spec, used = outcome.settings] { return make_section_energy_model(spec, used); };
+  std::vector<std::string> cycles;
+  for (const CycleResult& cycle : results.economy.cycles) cycles.push_back(cycle.name);
+  outcome.make_measurement_model = [&spec, used = outcome.settings, cycles] {
+    return make_section_energy_model(spec, used, cycles);
+  };
   return results;
 }
 

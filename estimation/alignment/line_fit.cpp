@@ -51,6 +51,7 @@ void weigh_scatter(LineFit& fit, const RepeatScatter& repeats) {
   fit.residual_sd = std::sqrt(squares / (p - 2.0));
   fit.repeat_sd = std::hypot(repeats.reference_sd, fit.slope * repeats.candidate_sd);
   fit.repeat_freedom = repeats.degrees_of_freedom;
+  fit.candidate_sd = repeats.candidate_sd;
   const bool more_than_repeats = fit.residual_sd >= fit.repeat_sd;
   fit.sd = std::max(fit.residual_sd, fit.repeat_sd);
   fit.freedom = more_than_repeats ? p - 2.0 : repeats.degrees_of_freedom;

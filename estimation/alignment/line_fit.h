@@ -65,6 +65,7 @@ struct LineFit {
   double residual_sd = 0.0;  // s_r
   double repeat_sd = 0.0;    // s_w
   double repeat_freedom = 0.0;
+  double candidate_sd = 0.0;   // of a mean on the candidate machine, by its repeats
   double sd = 0.0;             // s
   double freedom = 0.0;        // of s
   double between_sd = 0.0;     // tau

@@ -1,6 +1,9 @@
 #include "estimation/road_load/reference_conditions.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "sim/core/units.h"
 
 namespace rollrig::estimation {
 
@@ -21,38 +24,80 @@ Eigen::Vector3d correct_to_reference(const Eigen::Vector3d& measured, const Refe
   return {rolling * (measured(0) - wind - mass), rolling * measured(1), correction.air_factor() * measured(2)};
 }
 
-std::vector<SensorContribution> list_sensor_contributions(const Eigen::Vector3d& measured,
-                                                          const ReferenceCorrection& correction,
-                                                          bool in_proportion_to_mass) {
-  constexpr double kTemperature_K = 1.0;
-  constexpr double kPressure_Pa = 300.0;
-  constexpr double kWind_m_s = 0.3;
-  const double mass_kg = correction.mass_kg > 4000.0 ? 20.0 : 10.0;
-  const Eigen::Vector3d at = correct_to_reference(measured, correction);
-  std::vector<SensorContribution> list;
-  const auto add = [&](const char* name, double half_width, const Eigen::Vector3d& measured_moved,
-                       const ReferenceCorrection& moved) {
-    list.push_back({name, half_width, (correct_to_reference(measured_moved, moved) - at) / std::sqrt(3.0)});
-  };
-  if (correction.ambient_K.has_value()) {
-    ReferenceCorrection moved = correction;
-    *moved.ambient_K += kTemperature_K;
-    add("air temperature", kTemperature_K, measured, moved);
-    if (correction.ambient_pressure_Pa.has_value()) {
-      moved = correction;
-      *moved.ambient_pressure_Pa += kPressure_Pa;
-      add("air pressure", kPressure_Pa, measured, moved);
+std::vector<RoadLoadSensor> list_road_load_sensors(const TestedRoadLoad& tested) {
+  using Kind = RoadLoadSensorKind;
+  const ReferenceCorrection& at = tested.correction;
+  std::vector<RoadLoadSensor> list{{Kind::kSpeed, "vehicle speed", "speed_km_h", 0.2 / kKmhPerMs}};
+  if (at.ambient_K.has_value()) {
+    list.push_back({Kind::kAmbient, "air temperature", "ambient_degC", 1.0});
+    if (at.ambient_pressure_Pa.has_value()) {
+      list.push_back({Kind::kPressure, "air pressure", "ambient_pressure_kPa", 300.0});
     }
   }
-  ReferenceCorrection moved = correction;
-  if (correction.wind_m_s != 0.0) {
-    moved.wind_m_s = std::abs(moved.wind_m_s) + kWind_m_s;
-    add("wind speed", kWind_m_s, measured, moved);
-    moved = correction;
+  if (at.wind_m_s != 0.0) list.push_back({Kind::kWind, "wind speed", "wind_m_s", 0.3});
+  list.push_back({Kind::kMass, "mass", "mass_kg", at.mass_kg > 4000.0 ? 20.0 : 10.0});
+  if (tested.has_air_speed) list.push_back({Kind::kAirSpeed, "air speed", "speed_km_h", 1.0 / kKmhPerMs});
+  if (tested.most_torque_Nm > 0.0) {
+    list.push_back({Kind::kTorque, "wheel torque", "torque_Nm", std::max(6.0, 0.005 * tested.most_torque_Nm)});
   }
-  moved.mass_kg += mass_kg;
-  add("mass", mass_kg,
-      in_proportion_to_mass ? Eigen::Vector3d(measured * moved.mass_kg / correction.mass_kg) : measured, moved);
+  if (tested.turns_at_radius_Hz > 0.0) list.push_back({Kind::kTurns, "wheel speed", "wheel_speed_Hz", 0.05});
+  return list;
+}
+
+Eigen::Vector3d calc_road_load(const TestedRoadLoad& tested, const std::vector<RoadLoadSensor>& sensors,
+                               const std::vector<double>& errors) {
+  constexpr double kRadiusSpeed_m_s = 80.0 / kKmhPerMs;
+  Eigen::Vector3d measured = tested.measured;
+  ReferenceCorrection moved = tested.correction;
+  double force_per_unit = tested.force_per_unit;
+  double missing_f1 = 0.0;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const double e = errors[i];
+    switch (sensors[i].kind) {
+      case RoadLoadSensorKind::kSpeed:
+        measured(0) += e * (e * measured(2) - measured(1));
+        measured(1) -= 2.0 * e * measured(2);
+        if (tested.turns_at_radius_Hz > 0.0) force_per_unit /= 1.0 + e / kRadiusSpeed_m_s;
+        break;
+      case RoadLoadSensorKind::kAmbient:
+        *moved.ambient_K += e;
+        break;
+      case RoadLoadSensorKind::kPressure:
+        *moved.ambient_pressure_Pa += e;
+        break;
+      case RoadLoadSensorKind::kWind:
+        moved.wind_m_s = std::abs(moved.wind_m_s) + e;
+        break;
+      case RoadLoadSensorKind::kMass:
+        moved.mass_kg += e;
+        if (tested.in_proportion_to_mass) measured *= moved.mass_kg / tested.correction.mass_kg;
+        break;
+      case RoadLoadSensorKind::kAirSpeed:
+        missing_f1 = 2.0 * e;
+        break;
+      case RoadLoadSensorKind::kTorque:
+        measured(0) += e;
+        break;
+      case RoadLoadSensorKind::kTurns:
+        force_per_unit *= 1.0 + e / tested.turns_at_radius_Hz;
+        break;
+    }
+  }
+  Eigen::Vector3d load = force_per_unit * correct_to_reference(measured, moved);
+  load(1) -= missing_f1 * load(2);
+  return load;
+}
+
+std::vector<SensorContribution> list_sensor_contributions(const TestedRoadLoad& tested) {
+  const std::vector<RoadLoadSensor> sensors = list_road_load_sensors(tested);
+  std::vector<double> errors(sensors.size(), 0.0);
+  const Eigen::Vector3d at = calc_road_load(tested, sensors, errors);
+  std::vector<SensorContribution> list;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    errors[i] = sensors[i].half_width;
+    list.push_back({sensors[i], (calc_road_load(tested, sensors, errors) - at) / std::sqrt(3.0)});
+    errors[i] = 0.0;
+  }
   return list;
 }
 

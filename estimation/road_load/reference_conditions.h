@@ -34,19 +34,47 @@ struct ReferenceCorrection {
 /// Checked   tests/estimation/reference_conditions_test.cpp
 Eigen::Vector3d correct_to_reference(const Eigen::Vector3d& measured, const ReferenceCorrection& correction);
 
-/// What the accuracy of a sensor does to the corrected coefficients.
-struct SensorContribution {
-  std::string name;
-  double half_width = 0.0;                           // of its accuracy, in SI units; a rectangular distribution
-  Eigen::Vector3d change = Eigen::Vector3d::Zero();  // of the coefficients, by one standard deviation
+/// A road load as tested, and what its force at reference conditions rests on.
+struct TestedRoadLoad {
+  Eigen::Vector3d measured = Eigen::Vector3d::Zero();  // coefficients of a force, or of a torque
+  ReferenceCorrection correction;
+  bool in_proportion_to_mass = true;  // a force from a deceleration
+  double force_per_unit = 1.0;        // of a torque: 1.02/r' [1/m]
+  bool has_air_speed = false;         // the air flow was measured on the vehicle
+  double most_torque_Nm = 0.0;        // of the torque-meter method: the largest one measured
+  double turns_at_radius_Hz = 0.0;    // of the wheels where r' was found; 0: r' is given
 };
 
-/// Contributions of thermometer, barometer, anemometer and scale. The coefficients of a coastdown are in proportion to
-/// the mass as measured; those of a torque are not.
-/// Source    Regulation (EU) 2018/1832, 3.1 of Sub-Annex 4: 1 degC, 0.3 kPa, 0.3 m/s, 10 kg (20 kg above 4000 kg)
+/// What a sensor measures.
+enum class RoadLoadSensorKind { kSpeed, kAmbient, kPressure, kWind, kMass, kAirSpeed, kTorque, kTurns };
+
+struct RoadLoadSensor {
+  RoadLoadSensorKind kind = RoadLoadSensorKind::kMass;
+  std::string name;
+  std::string key;          // with its unit
+  double half_width = 0.0;  // of its accuracy, in SI units; a rectangular distribution
+};
+
+/// The sensors that the road load rests on, with the accuracy that the regulation asks for: 0.2 km/h, 1 degC, 0.3 kPa,
+/// 0.3 m/s, 10 kg (20 kg above 4000 kg), 6 Nm or 0.5 % of the largest torque, 0.05 turns a second; of an air speed
+/// 1 km/h. An air speed or a torque that was not measured has no sensor.
+/// Source    Regulation (EU) 2018/1832, 3.1 of Sub-Annex 4; air speed: SAE J2263, from a public summary
+std::vector<RoadLoadSensor> list_road_load_sensors(const TestedRoadLoad& tested);
+
+/// The coefficients of the force at reference conditions with what sensors read too high, one error each.
+/// Equation  correct_to_reference() of coefficients and conditions that have the errors. A speed that reads e too high
+///           makes f0 too small by f1 e - f2 e^2 and f1 by 2 f2 e; an air speed makes 2 f2 e of f1 missing; a torque is
+///           added to c0; r' = v/(2 pi n) at 80 km/h
+/// Symbols   v speed, n turns of the wheels a second
 /// Checked   tests/estimation/reference_conditions_test.cpp
-std::vector<SensorContribution> list_sensor_contributions(const Eigen::Vector3d& measured,
-                                                          const ReferenceCorrection& correction,
-                                                          bool in_proportion_to_mass);
+Eigen::Vector3d calc_road_load(const TestedRoadLoad& tested, const std::vector<RoadLoadSensor>& sensors,
+                               const std::vector<double>& errors);
+
+/// What the accuracy of a sensor does to the coefficients of the force.
+struct SensorContribution {
+  RoadLoadSensor sensor;
+  Eigen::Vector3d change = Eigen::Vector3d::Zero();  // by one standard deviation
+};
+std::vector<SensorContribution> list_sensor_contributions(const TestedRoadLoad& tested);
 
 }  // namespace rollrig::estimation

@@ -176,9 +176,9 @@ void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& o
   }
 }
 
-void finish_procedure(const RoadLoadProcedureOptions& options, bool in_proportion_to_mass, double force_per_unit,
-                      RoadLoadProcedure& procedure) {
+void finish_procedure(const RoadLoadProcedureOptions& options, RoadLoadProcedure& procedure) {
   const ReferenceResult& reference = procedure.reference;
+  const double force_per_unit = procedure.tested.force_per_unit;
   Eigen::Matrix3d jacobian;  // the correction is linear in the coefficients
   for (int i = 0; i < 3; ++i) {
     jacobian.col(i) = force_per_unit * correct_to_reference(Eigen::Vector3d::Unit(i), procedure.correction);
@@ -188,9 +188,9 @@ void finish_procedure(const RoadLoadProcedureOptions& options, bool in_proportio
   procedure.road_load = force_per_unit * procedure.corrected;
   procedure.repeatability = jacobian * reference.covariance * jacobian.transpose();
   procedure.freedom = reference.freedom;
-  if (!options.sensor_accuracy) return;
-  procedure.sensors = list_sensor_contributions(reference.coefficients, procedure.correction, in_proportion_to_mass);
-  for (SensorContribution& sensor : procedure.sensors) sensor.change *= force_per_unit;
+  procedure.tested.measured = procedure.as_tested;
+  procedure.tested.correction = procedure.correction;
+  if (options.sensor_accuracy) procedure.sensors = list_sensor_contributions(procedure.tested);
 }
 
 void put_fitted(RoadLoadProcedure& procedure) {

@@ -39,6 +39,7 @@ struct RoadLoadProcedure {
   Eigen::Vector3d road_load = Eigen::Vector3d::Zero();      // of the force at reference conditions
   Eigen::Matrix3d repeatability = Eigen::Matrix3d::Zero();  // covariance of road_load by the scatter of the runs
   Eigen::Vector3d freedom = Eigen::Vector3d::Zero();        // of that
+  TestedRoadLoad tested;                                    // of which road_load is the force at reference
   std::vector<SensorContribution> sensors;                  // to road_load
   std::vector<FurtherCoefficient> further;
   ReferenceCorrection correction;
@@ -87,10 +88,9 @@ double find_common_wind(const CoastdownData& data);
 void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options, double default_pressure_Pa,
                     RoadLoadProcedure& procedure);
 
-/// Corrects `reference.coefficients` to the conditions of reference; `force_per_unit` makes the road load of them. The
-/// contributions of the sensors are there unless the options leave them out.
-void finish_procedure(const RoadLoadProcedureOptions& options, bool in_proportion_to_mass, double force_per_unit,
-                      RoadLoadProcedure& procedure);
+/// Corrects `reference.coefficients` to the conditions of reference, with what `tested` says of force and mass, and
+/// puts both there. The contributions of the sensors are there unless the options leave them out.
+void finish_procedure(const RoadLoadProcedureOptions& options, RoadLoadProcedure& procedure);
 /// Fills `fitted` of the points, from `as_tested`.
 void put_fitted(RoadLoadProcedure& procedure);
 /// Pairs and statistical precision against the limits of the WLTP.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "estimation/road_load/road_load_report.h"
+#include "estimation/uncertainty/usual_inputs.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -24,14 +25,6 @@ namespace road_input {
 enum : std::size_t { kMass = 3, kRotating, kSpeedGain, kAmbient, kPressure, kFall };
 }
 
-UncertainInput make_limit(const std::string& name, const std::string& key, double value, double half_width,
-                          const std::string& limits) {
-  UncertainInput input{name, key, value, half_width / std::sqrt(3.0), Distribution::kRectangular};
-  input.source = fmt::format("Assumed: +-{}, rectangular; no file gives it", limits);
-  input.is_from_limits = true;
-  return input;
-}
-
 /// Mean over all samples (or bins) of all runs; `missing` where there are none.
 double calc_mean_of(const CoastdownData& data, std::vector<double> CoastdownConditions::*member, double missing) {
   double sum = 0.0;
@@ -43,21 +36,7 @@ double calc_mean_of(const CoastdownData& data, std::vector<double> CoastdownCond
   return count == 0 ? missing : sum / static_cast<double>(count);
 }
 
-/// Lower triangle L with L L^T = covariance; rows of coefficients without variance are 0.
-Eigen::Matrix3d calc_root(const Eigen::Matrix3d& covariance) {
-  Eigen::Matrix3d root = Eigen::Matrix3d::Zero();
-  for (int j = 0; j < 3; ++j) {
-    const double left = covariance(j, j) - root.row(j).head(j).squaredNorm();
-    if (left <= 1e-12 * covariance(j, j)) continue;
-    root(j, j) = std::sqrt(left);
-    for (int i = j + 1; i < 3; ++i) {
-      root(i, j) = (covariance(i, j) - root.row(i).head(j).dot(root.row(j).head(j))) / root(j, j);
-    }
-  }
-  return root;
-}
-
-std::vector<UncertainInput> make_scatter_inputs(const RoadLoadFit& fit) {
+std::vector<UncertainInput> make_coefficient_scatter(const RoadLoadFit& fit) {
   double freedom = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3; ++i) {
     if (!fit.on_bound[i]) freedom = std::min(freedom, fit.degrees_freedom[i]);
@@ -71,15 +50,15 @@ std::vector<UncertainInput> make_scatter_inputs(const RoadLoadFit& fit) {
 
 std::vector<UncertainInput> make_road_inputs(const CoastdownData& data, const RoadLoadFitOptions& options,
                                              const RoadLoadFit& fit) {
-  std::vector<UncertainInput> inputs = make_scatter_inputs(fit);
+  std::vector<UncertainInput> inputs = make_coefficient_scatter(fit);
   const double mass_kg = find_test_mass_kg(options, fit.effective_mass_kg);
   const double rotating_kg = fit.effective_mass_kg - mass_kg;
-  inputs.push_back(make_limit("test mass", "mass_kg", mass_kg, kMassLimit * mass_kg, "0.2 % of the mass"));
+  inputs.push_back(make_assumed_limit("test mass", "mass_kg", mass_kg, kMassLimit * mass_kg, "0.2 % of the mass"));
   inputs.push_back(options.rotating_mass_kg.has_value()
-                       ? make_limit("rotating mass", "rotating_mass_kg", rotating_kg, kKnownRotatingLimit * rotating_kg,
-                                    "10 % of it")
-                       : make_limit("rotating mass", "rotating_mass_kg", rotating_kg, kRatioLimit * mass_kg,
-                                    "1 % of the test mass, since 3 % of it are taken"));
+                       ? make_assumed_limit("rotating mass", "rotating_mass_kg", rotating_kg,
+                                            kKnownRotatingLimit * rotating_kg, "10 % of it")
+                       : make_assumed_limit("rotating mass", "rotating_mass_kg", rotating_kg, kRatioLimit * mass_kg,
+                                            "1 % of the test mass, since 3 % of it are taken"));
   if (fit.per_mass) {
     for (std::size_t i = road_input::kMass; i <= road_input::kRotating; ++i) {
       inputs[i].standard_uncertainty = 0.0;
@@ -87,16 +66,16 @@ std::vector<UncertainInput> make_road_inputs(const CoastdownData& data, const Ro
       inputs[i].is_from_limits = false;
     }
   }
-  inputs.push_back(make_limit("gain of the speed", "gain", 1.0, kSpeedGainLimit, "0.2 %"));
-  inputs.push_back(make_limit("air temperature", "ambient_degC",
-                              calc_mean_of(data, &CoastdownConditions::ambient_K, options.reference_temperature_K),
-                              kAmbientLimit_K, "1 degC"));
+  inputs.push_back(make_assumed_limit("gain of the speed", "gain", 1.0, kSpeedGainLimit, "0.2 %"));
+  inputs.push_back(make_assumed_limit(
+      "air temperature", "ambient_degC",
+      calc_mean_of(data, &CoastdownConditions::ambient_K, options.reference_temperature_K), kAmbientLimit_K, "1 degC"));
   inputs.push_back(
-      make_limit("air pressure", "ambient_pressure_kPa",
-                 calc_mean_of(data, &CoastdownConditions::ambient_pressure_Pa, options.reference_pressure_Pa),
-                 kPressureLimit_Pa, "0.3 kPa"));
-  inputs.push_back(make_limit("fall of A and B with temperature", "fall_per_K", options.rolling_fall_per_K,
-                              kFallLimit * options.rolling_fall_per_K, "30 % of it"));
+      make_assumed_limit("air pressure", "ambient_pressure_kPa",
+                         calc_mean_of(data, &CoastdownConditions::ambient_pressure_Pa, options.reference_pressure_Pa),
+                         kPressureLimit_Pa, "0.3 kPa"));
+  inputs.push_back(make_assumed_limit("fall of A and B with temperature", "fall_per_K", options.rolling_fall_per_K,
+                                      kFallLimit * options.rolling_fall_per_K, "30 % of it"));
   return inputs;
 }
 
@@ -125,7 +104,7 @@ MeasurementModel make_road_load_model(const CoastdownData& data, const RoadLoadF
   list_left_out(data, fit, model);
   const std::array<double, 3> fitted = fit.values();
   const Eigen::Vector3d load(fitted[0], fitted[1], fitted[2]);
-  const Eigen::Matrix3d root = calc_root(fit.covariance);
+  const Eigen::Matrix3d root = calc_covariance_root(fit.covariance);
   const double reference_K = options.reference_temperature_K;
   const auto rolling = [reference_K](double fall_per_K, double ambient_K) {
     return 1.0 + fall_per_K * (ambient_K - reference_K);

@@ -96,9 +96,15 @@ TorqueFile read_torque_file(const std::string& path, BadRows bad_rows) {
 }
 
 /// Radius from the wheels' rotation at 80 km/h, or at the highest reference speed below.
-double find_wheel_radius_m(const TorqueFile& file, const RoadLoadProcedureOptions& options) {
+/// The dynamic radius, and the turns of the wheels a second where it was found; 0 where it is given.
+struct DynamicRadius {
+  double radius_m = 0.0;
+  double turns_Hz = 0.0;
+};
+
+DynamicRadius find_wheel_radius(const TorqueFile& file, const RoadLoadProcedureOptions& options) {
   constexpr int kRadiusSpeed_km_h = 80;
-  if (options.wheel_radius_m.has_value()) return *options.wheel_radius_m;
+  if (options.wheel_radius_m.has_value()) return {*options.wheel_radius_m, 0.0};
   if (!file.has_wheel_speeds) {
     throw InputError({"the dynamic radius of the tires is missing: a torque becomes a force by it", "command line", 0,
                       "--wheel-radius", "", "--wheel-radius <m>, or a column wheel_speed_Hz", ""});
@@ -107,13 +113,14 @@ double find_wheel_radius_m(const TorqueFile& file, const RoadLoadProcedureOption
   for (const TorqueMeasurement& at : file.measurements) {
     if (at.reference_km_h <= kRadiusSpeed_km_h) highest_km_h = std::max(highest_km_h, at.reference_km_h);
   }
-  double speed_m_s = 0.0, turns_Hz = 0.0;
+  double speed_m_s = 0.0, turns_Hz = 0.0, count = 0.0;
   for (const TorqueMeasurement& at : file.measurements) {
     if (at.reference_km_h != highest_km_h) continue;
     speed_m_s += calc_mean(at.speed_m_s);
     turns_Hz += calc_mean(at.wheel_Hz);
+    count += 1.0;
   }
-  return speed_m_s / (boost::math::constants::two_pi<double>() * turns_Hz);
+  return {speed_m_s / (boost::math::constants::two_pi<double>() * turns_Hz), turns_Hz / count};
 }
 
 /// Equation  C_m = mean C - (m_st + m_r) a r,  a slope of the speed over time
@@ -211,7 +218,8 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   const std::vector<std::string> windy =
       check_winds(file.runs, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, procedure.checks);
   procedure.correction.wind_m_s = find_common_wind(file.runs);
-  procedure.wheel_radius_m = find_wheel_radius_m(file, options);
+  const DynamicRadius radius = find_wheel_radius(file, options);
+  procedure.wheel_radius_m = radius.radius_m;
   const double effective_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
   std::vector<MeanTorque> means;
   std::vector<ReferenceRun> runs;
@@ -239,7 +247,12 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
                             procedure.reference.warnings.end());
   check_measurements(file, means, procedure);
   check_reference_precision(procedure);
-  finish_procedure(options, false, kDrivelineFactor / procedure.wheel_radius_m, procedure);
+  TestedRoadLoad& tested = procedure.tested;
+  tested.in_proportion_to_mass = false;
+  tested.force_per_unit = kDrivelineFactor / radius.radius_m;
+  tested.turns_at_radius_Hz = radius.turns_Hz;
+  for (const MeanTorque& mean : means) tested.most_torque_Nm = std::max(tested.most_torque_Nm, mean.torque_Nm);
+  finish_procedure(options, procedure);
   put_fitted(procedure);
   doubt_units(procedure);
   return procedure;

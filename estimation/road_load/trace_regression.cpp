@@ -369,16 +369,13 @@ void put_estimate(const LinearEstimate& estimate, const TraceTerms& terms, const
       {"run_to_run_N", "scatter from run to run, N", std::sqrt(estimate.components(kForceOfRun)), 0.0});
 }
 
+/// The wind is in the equation of motion, not in a correction.
 void put_trace_sensors(bool on_board, const RoadLoadProcedureOptions& options, RoadLoadProcedure& procedure) {
-  if (!options.sensor_accuracy) return;
-  ReferenceCorrection still = procedure.correction;
-  still.wind_m_s = 0.0;
-  procedure.sensors = list_sensor_contributions(procedure.as_tested, still, true);
-  if (!on_board) return;
-  // 1 km/h of the air speed: SAE J2263, from a public summary. What is read too high makes 2 C v of the drag missing.
-  constexpr double kAirSpeed_m_s = 1.0 / 3.6;
-  const double sd_m_s = kAirSpeed_m_s / std::sqrt(3.0);
-  procedure.sensors.push_back({"air speed", kAirSpeed_m_s, {0.0, -2.0 * procedure.road_load(2) * sd_m_s, 0.0}});
+  procedure.tested.measured = procedure.as_tested;
+  procedure.tested.correction = procedure.correction;
+  procedure.tested.correction.wind_m_s = 0.0;
+  procedure.tested.has_air_speed = on_board;
+  if (options.sensor_accuracy) procedure.sensors = list_sensor_contributions(procedure.tested);
 }
 
 }  // namespace
@@ -390,6 +387,11 @@ RoadLoadProcedure evaluate_traces(const CoastdownFile& file, const RoadLoadProce
   RoadLoadProcedure procedure;
   procedure.kind = options.kind;
   const bool on_board = require_air(file.data, options);
+  if (options.corrected_to_mass_kg.has_value()) {
+    throw InputError({"SAE J2263 and SAE J1263 have no correction for the mass", "command line", 0, "--corrected-mass",
+                      fmt::format("{:g}", *options.corrected_to_mass_kg),
+                      "none; --method wltp and torque-meter correct for it", ""});
+  }
   put_masses(options, procedure);
   put_conditions(file.data, options, kReferencePressure_Pa, procedure);
   std::vector<TraceRun> traces;

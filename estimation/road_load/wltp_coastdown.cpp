@@ -171,7 +171,7 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
   check_reference_speeds(procedure, procedure.checks);
   check_reference_precision(procedure);
   check_overlaps(procedure);
-  finish_procedure(options, true, 1.0, procedure);
+  finish_procedure(options, procedure);
   for (const ReferenceRun& run : runs) {
     for (const auto& [km_h, value] : run.values) {
       if (std::find(procedure.reference.speeds.begin(), procedure.reference.speeds.end(), km_h) ==

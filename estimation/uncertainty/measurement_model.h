@@ -14,8 +14,10 @@ namespace rollrig::estimation {
 enum class Evaluation { kTypeA, kTypeB };
 
 /// What is known of an input quantity. A rectangular distribution has the half-width sqrt(3) u. Student's t is that of
-/// the degrees of freedom, scaled by u, as GUM Supplement 1, 6.4.9 has it for a mean of repeated observations.
-enum class Distribution { kNormal, kRectangular, kStudentT };
+/// the degrees of freedom, scaled by u, as GUM Supplement 1, 6.4.9 has it for a mean of repeated observations. The
+/// Student scale is sqrt(nu/chi2_nu) times the value: by how much an estimated standard deviation may be off
+/// (make_scatter_inputs).
+enum class Distribution { kNormal, kRectangular, kStudentT, kStudentScale };
 
 /// An input quantity of a measurement. Values are SI; the suffix of `key` is the unit in which they are shown.
 struct UncertainInput {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
@@ -23,6 +24,10 @@ double draw_input(const UncertainInput& input, RandomStream& random) {
   const double uniform = random.uniform();
   if (input.distribution == Distribution::kRectangular) return input.value + u * std::sqrt(3.0) * (2.0 * uniform - 1.0);
   const double probability = std::max(uniform, std::numeric_limits<double>::min());
+  if (input.distribution == Distribution::kStudentScale) {
+    const boost::math::chi_squared squares(input.degrees_freedom);
+    return input.value * std::sqrt(input.degrees_freedom / boost::math::quantile(squares, probability));
+  }
   return input.value + u * boost::math::quantile(boost::math::students_t(input.degrees_freedom), probability);
 }
 

@@ -18,6 +18,7 @@ const char* distribution_name(Distribution distribution) {
     case Distribution::kRectangular:
       return "rectangular";
     case Distribution::kStudentT:
+    case Distribution::kStudentScale:
       return "Student's t";
     default:
       return "normal";

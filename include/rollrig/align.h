@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "progress.h"
 #include "result.h"
+#include "uncertainty_options.h"
 
 #pragma GCC visibility push(default)
 namespace rollrig {
@@ -56,7 +58,7 @@ struct Alignment : Report {
 /// Errors  InputError: a wrong file; classes that do not go together; a value that is no RRC in N/kN; two measurements
 ///         of a tire at one time; a tire without a reference value, or the other way round; unless `preliminary`, fewer
 ///         than five tires, fewer than four measurements of a tire, or too narrow a range
-Alignment align(const AlignmentInput& input);
+Alignment align(const AlignmentInput& input, const UncertaintyOptions& uncertainty = {}, const Progress& progress = {});
 
 /// A measured value that is to be aligned.
 struct AlignedValueInput {
@@ -77,7 +79,8 @@ struct AlignedValue : Report {
 /// Validity  the range of the alignment tires, until the day in the file; beyond them a warning says so
 /// Source    EU 2020/740, Annex V, Section 6
 /// Errors    InputError: a wrong file or day, a value that is no RRC in N/kN, fewer than one measurement
-AlignedValue apply_alignment(const AlignedValueInput& input);
+AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOptions& uncertainty = {},
+                             const Progress& progress = {});
 
 }  // namespace rollrig
 #pragma GCC visibility pop

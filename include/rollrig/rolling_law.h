@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "progress.h"
 #include "result.h"
+#include "uncertainty_options.h"
 
 #pragma GCC visibility push(default)
 namespace rollrig {
@@ -28,13 +30,15 @@ struct RollingLaw : Report {
 /// F = P^alpha Z^beta (a + b v + c v^2) from a CSV file of points or the result of the scenario sae_j2452. Method:
 /// docs/fit_j2452.md.
 /// Errors  InputError: a wrong file, too few points, speeds, loads or pressures; RunFailure: load and pressure that vary
-///         together
-RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options = {});
+///         together; Interrupted
+RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options = {},
+                     const UncertaintyOptions& uncertainty = {}, const Progress& progress = {});
 
 /// F = A0 + A1 Z + A2/P + A3 Z/P, or with `proportional` F = Z (A1 + A3/P), from points at one speed. Method:
 /// docs/fit_j2452.md.
 /// Errors  as of fit_j2452; InputError also for points of several speeds
-RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options = {}, bool proportional = false);
+RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options = {}, bool proportional = false,
+                     const UncertaintyOptions& uncertainty = {}, const Progress& progress = {});
 
 /// Programs that take coefficients of rolling resistance.
 enum class CoefficientTarget { kTydex, kTir, kSimscape, kFastsim, kCo2mpas };

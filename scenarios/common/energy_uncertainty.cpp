@@ -8,13 +8,14 @@
 #include <cmath>
 #include <memory>
 
+#include "estimation/uncertainty/usual_inputs.h"
 #include "scenarios/run/run_spec.h"
 #include "scenarios/run/tire_validity.h"
 
 namespace rollrig::scenarios {
 namespace {
 
-using estimation::Distribution;
+using estimation::make_assumed_limit;
 using estimation::MeasurementModel;
 using estimation::UncertainInput;
 
@@ -75,46 +76,67 @@ void TireNumbers::move(const Eigen::VectorXd& z, models::TireFile& tire) const {
       });
 }
 
-UncertainInput make_energy_input(const std::string& name, const std::string& key, double value, double half_width,
-                                 const std::string& limits) {
-  UncertainInput input{name, key, value, half_width / std::sqrt(3.0), Distribution::kRectangular};
-  input.source = fmt::format("Assumed: +-{}, rectangular; no file gives it", limits);
-  input.is_from_limits = true;
-  return input;
-}
-
 void set_number(RunSpec& spec, const std::string& key, double value_SI) {
   set_config_value(spec.settings, key, fmt::format("{:.17g}", unit_of_key(key).from_si(value_SI)), "uncertainty");
 }
 
-/// Battery and rolling resistance of all sections [J].
-std::vector<double> simulate_energies(const RunSpec& spec) {
-  const Json result = run_scenario(spec, {}).result;
-  double battery_Wh = 0.0, rolling_Wh = 0.0;
+/// What is measured in a test with sections, SI.
+struct MeasuredEnergies {
+  double battery_J = 0.0;  // of all sections
+  double rolling_J = 0.0;  // of all tires and sections
+  struct Cycle {
+    double consumption_J_per_m = 0.0;
+    double range_m = 0.0;
+  };
+  std::vector<Cycle> cycles;  // none in a test of another order than that of SAE J1634
+};
+
+double find_SI(const Json& of, const char* key) { return unit_of_key(key).to_si(of[key].get<double>()); }
+
+MeasuredEnergies find_energies(const Json& result) {
+  MeasuredEnergies found;
   for (const Json& section : result["sections"]) {
-    battery_Wh += section["battery_energy_Wh"].get<double>();
-    rolling_Wh += section["vehicle_rr_energy_Wh"].get<double>();
+    found.battery_J += find_SI(section, "battery_energy_Wh");
+    found.rolling_J += find_SI(section, "vehicle_rr_energy_Wh");
   }
-  const double factor = unit_of_key("energy_Wh").factor;
-  return {factor * battery_Wh, factor * rolling_Wh};
+  for (const Json& cycle : result["economy"]) {
+    found.cycles.push_back({find_SI(cycle, "dc_consumption_Wh_per_km"), find_SI(cycle, "range_km")});
+  }
+  return found;
+}
+
+/// As find_energies(). Settings at which the test cannot be done, such as a battery that is empty too soon, are a
+/// failed trial.
+MeasuredEnergies simulate_energies(const RunSpec& spec) {
+  try {
+    return find_energies(run_scenario(spec, {}).result);
+  } catch (const InputError& error) {
+    throw RunFailure(error.what());
+  }
 }
 
 }  // namespace
 
-MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& settings) {
+MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& settings,
+                                           const std::vector<std::string>& cycles) {
   MeasurementModel model;
   model.measurands = {{"energy of the battery, all sections", "battery_energy_Wh"}};
   if (has_tire_loss(spec)) {
     model.measurands.push_back({"energy of rolling resistance, all tires and sections", "vehicle_rr_energy_Wh"});
   }
+  for (const std::string& cycle : cycles) {
+    model.measurands.push_back(
+        {fmt::format("consumption, {}, direct current", cycle), cycle + "_dc_consumption_Wh_per_km"});
+    model.measurands.push_back({fmt::format("range, {}", cycle), cycle + "_range_km"});
+  }
   const auto setting = [&settings](const char* key) { return unit_of_key(key).to_si(settings[key].get<double>()); };
   const double mass_kg = spec.vehicle->body.mass_kg;
   model.inputs = {
-      make_energy_input("gain of the energy meter", "gain", 1.0, kMeterGainLimit, "1 %"),
-      make_energy_input("test mass", "mass_kg", mass_kg, kTestMassLimit * mass_kg, "0.2 % of the mass"),
-      make_energy_input("air temperature", "ambient_degC", setting("ambient_degC"), kTestAmbientLimit_K, "1 degC"),
-      make_energy_input("tire pressure, cold", "pressure_kPa", setting("pressure_kPa"), kTestPressureLimit_Pa,
-                        "3 kPa")};
+      make_assumed_limit("gain of the energy meter", "gain", 1.0, kMeterGainLimit, "1 %"),
+      make_assumed_limit("test mass", "mass_kg", mass_kg, kTestMassLimit * mass_kg, "0.2 % of the mass"),
+      make_assumed_limit("air temperature", "ambient_degC", setting("ambient_degC"), kTestAmbientLimit_K, "1 degC"),
+      make_assumed_limit("tire pressure, cold", "pressure_kPa", setting("pressure_kPa"), kTestPressureLimit_Pa,
+                         "3 kPa")};
   const auto numbers = std::make_shared<const TireNumbers>(TireNumbers::of(spec.tire));
   for (std::size_t i = 0; i < numbers->keys.size(); ++i) {
     UncertainInput input{"numbers of the tire file", "tire", 0.0, 1.0};
@@ -122,6 +144,10 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
     model.inputs.push_back(input);
   }
   if (numbers->keys.empty()) model.left_out.push_back("the loss of the tire: its file gives no uncertainty");
+  if (spec.vehicle->battery.has_value()) {
+    model.left_out.push_back(
+        "the usable energy of the battery, which the vehicle file gives as a number, for the ranges");
+  }
   model.left_out.push_back("the setting of the dynamometer, the efficiency of the powertrain, how the driver follows");
   model.evaluate = [&spec, numbers](const std::vector<double>& x) {
     RunSpec own = spec;
@@ -132,10 +158,14 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
     set_number(own, "pressure_kPa", x[energy_input::kPressure]);
     const auto count = static_cast<Eigen::Index>(numbers->keys.size());
     numbers->move(Eigen::Map<const Eigen::VectorXd>(x.data() + energy_input::kTire, count), own.tire);
-    std::vector<double> energies_J = simulate_energies(own);
-    energies_J[0] *= x[energy_input::kMeter];
-    if (!has_tire_loss(own)) energies_J.pop_back();
-    return energies_J;
+    const MeasuredEnergies energies = simulate_energies(own);
+    std::vector<double> results{x[energy_input::kMeter] * energies.battery_J};
+    if (has_tire_loss(own)) results.push_back(energies.rolling_J);
+    for (const MeasuredEnergies::Cycle& cycle : energies.cycles) {
+      results.push_back(x[energy_input::kMeter] * cycle.consumption_J_per_m);
+      results.push_back(cycle.range_m);
+    }
+    return results;
   };
   return model;
 }

@@ -1,20 +1,26 @@
 #pragma once
 /// Energies of a test with sections as a measurement, for their uncertainty.
 
+#include <string>
+#include <vector>
+
 #include "estimation/uncertainty/measurement_model.h"
 #include "scenarios/run/scenario.h"
 
 namespace rollrig::scenarios {
 
-/// Energy of the battery and of rolling resistance, over all sections of result.json. Each evaluation simulates the test
-/// again, quasi-static and without sensors.
+/// Energy of the battery and of rolling resistance, over all sections of result.json; in the order of SAE J1634 also
+/// consumption and range of the `cycles` (city, highway, combined). Each evaluation simulates the test again,
+/// quasi-static and without sensors.
 /// Equation  E = g E_sim(mass, T_amb, p, x_0 + S L z)
-/// Symbols   g gain of the energy meter, for the battery alone; x numbers of the tire file with a standard uncertainty,
+/// Symbols   g gain of the energy meter, for the battery and the consumption; a range has none, since one meter
+///           measures the usable energy and the consumption; x numbers of the tire file with a standard uncertainty,
 ///           S these uncertainties, L L^T their correlation, z independent inputs of standard deviation 1, T_amb and p
 ///           air temperature and pressure of the tires
 /// Validity  one tire file for all axles that are varied; the setting of the dynamometer stays as it is
 /// Source    uncertainties of the tire file; others are assumed, and marked so
 /// Checked   tests/scenarios/energy_uncertainty_test.cpp
-estimation::MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& settings);
+estimation::MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& settings,
+                                                       const std::vector<std::string>& cycles);
 
 }  // namespace rollrig::scenarios

@@ -22,8 +22,8 @@ double calc_power_W(const sim::Recording<double>& recording, const RunSpec& spec
 std::string name_coast(const std::string& name) { return "coast, " + name; }
 
 /// Deceleration at a speed, from the rows of one phase.
-double fit_coast_m_s2(const sim::Recording<double>& recording, const std::string& phase, double speed_m_s,
-                      double band_m_s) {
+estimation::DecelerationFit fit_coast(const sim::Recording<double>& recording, const std::string& phase,
+                                      double speed_m_s, double band_m_s) {
   estimation::Coast coast;
   const std::vector<double>& speeds_m_s = recording.channel(quantities::kSpeed);
   for (std::size_t row = 0; row < recording.row_count(); ++row) {
@@ -33,21 +33,38 @@ double fit_coast_m_s2(const sim::Recording<double>& recording, const std::string
   }
   coast.smooth_m_s = coast.speed_m_s;
   const estimation::DecelerationFit fit = estimation::fit_deceleration(coast, speed_m_s, band_m_s, {});
-  if (fit.available) return fit.value_m_s2;
+  if (fit.available) return fit;
   throw RunFailure(
       fmt::format("phase '{}' gives no deceleration at {:.4g} km/h ({} samples): {}; a shorter "
                   "sample_interval_s may help",
                   phase, kKmhPerMs * speed_m_s, coast.time_s.size(), fit.why));
 }
 
-/// Mass at the surface of drum and wheel.
+}  // namespace
+
 double calc_coasting_mass_kg(const RunSpec& spec, double load_N) {
   const double lever_m = spec.rig.lever_m();
   const double radius_m = calc_loaded_radius_m(spec.tire.values, load_N);
   return spec.rig.inertia() / (lever_m * lever_m) + calc_spin_mass_kg(spec.tire.values, radius_m);
 }
 
-}  // namespace
+MethodReadings read_method(const std::string& method, const sim::Recording<double>& recording, const RunSpec& spec,
+                           const Cycle& cycle, double band_m_s) {
+  if (method == kForceMethod) return {method, cycle.loaded.spindle_force_N, cycle.skim.spindle_force_N};
+  if (method == kPowerMethod) {
+    return {method, calc_power_W(recording, spec, cycle.loaded.window),
+            calc_power_W(recording, spec, cycle.skim.window)};
+  }
+  if (method == kDecelerationMethod) {
+    const auto fit = [&](const char* name) {
+      return fit_coast(recording, name_coast(name), cycle.loaded.speed_m_s, band_m_s);
+    };
+    const estimation::DecelerationFit loaded = fit("loaded"), skim = fit("skim");
+    return {method, loaded.value_m_s2, skim.value_m_s2, loaded.sd_m_s2, skim.sd_m_s2};
+  }
+  const double lever_m = spec.rig.lever_m();
+  return {method, (cycle.rolling_resistance_N + cycle.skim.force_N) * lever_m, cycle.skim.force_N * lever_m};
+}
 
 const std::vector<std::string>& list_iso_methods() {
   static const std::vector<std::string> names{kTorqueMethod, kForceMethod, kPowerMethod, kDecelerationMethod};
@@ -55,8 +72,8 @@ const std::vector<std::string>& list_iso_methods() {
 }
 
 double calc_power_method_N(const sim::Recording<double>& recording, const RunSpec& spec, const Cycle& cycle) {
-  return calc_power_W(recording, spec, cycle.loaded.window) / cycle.loaded.speed_m_s -
-         calc_power_W(recording, spec, cycle.skim.window) / cycle.skim.speed_m_s;
+  const MethodReadings power_W = read_method(kPowerMethod, recording, spec, cycle, 0.0);
+  return power_W.loaded / cycle.loaded.speed_m_s - power_W.skim / cycle.skim.speed_m_s;
 }
 
 double add_misalignment_N(double force_method_N, const Cycle& cycle, const RunSpec& spec, double angle_rad) {
@@ -89,11 +106,9 @@ void add_coast(DrumProgram& program, const std::string& name, double speed_m_s, 
 
 double calc_deceleration_method_N(const sim::Recording<double>& recording, const RunSpec& spec, const Cycle& cycle,
                                   double band_m_s) {
-  const double speed_m_s = cycle.loaded.speed_m_s;
-  const double loaded_m_s2 = fit_coast_m_s2(recording, name_coast("loaded"), speed_m_s, band_m_s);
-  const double skim_m_s2 = fit_coast_m_s2(recording, name_coast("skim"), speed_m_s, band_m_s);
-  return calc_coasting_mass_kg(spec, cycle.loaded.load_N) * loaded_m_s2 -
-         calc_coasting_mass_kg(spec, cycle.skim.load_N) * skim_m_s2;
+  const MethodReadings at = read_method(kDecelerationMethod, recording, spec, cycle, band_m_s);
+  return calc_coasting_mass_kg(spec, cycle.loaded.load_N) * at.loaded -
+         calc_coasting_mass_kg(spec, cycle.skim.load_N) * at.skim;
 }
 
 }  // namespace rollrig::scenarios

@@ -36,6 +36,20 @@ constexpr const char* kPowerMethod = "power";
 constexpr const char* kDecelerationMethod = "deceleration";
 const std::vector<std::string>& list_iso_methods();
 
+/// What a method reads in the last cycle, and what makes its two readings a force.
+struct MethodReadings {
+  std::string method;
+  double loaded = 0.0;     // torque [Nm], of a belt force [N]; force of the spindle [N]; power [W]; deceleration [m/s2]
+  double skim = 0.0;       // likewise
+  double loaded_sd = 0.0;  // of a deceleration alone, by the scatter of its coast
+  double skim_sd = 0.0;    // likewise
+  double misalignment_rad = 0.0;  // of the force cell of the force method
+};
+
+/// `band_m_s` is that of the coasts of the deceleration method. Throws RunFailure as calc_deceleration_method_N().
+MethodReadings read_method(const std::string& method, const sim::Recording<double>& recording, const RunSpec& spec,
+                           const Cycle& cycle, double band_m_s);
+
 /// F_r by the power of the motor.
 /// Equation  F_r = P/v - P_skim/v_skim
 /// Symbols   P mean mechanical power of the motor, v speed of the surface; loaded and in the skim test
@@ -72,5 +86,8 @@ void add_coast(DrumProgram& program, const std::string& name, double speed_m_s, 
 /// Checked   tests/scenarios/iso_methods_test.cpp
 double calc_deceleration_method_N(const sim::Recording<double>& recording, const RunSpec& spec, const Cycle& cycle,
                                   double band_m_s);
+
+/// Mass at the surface of drum, or belt, and wheel under a load: I_D/R^2 + I_T/r^2.
+double calc_coasting_mass_kg(const RunSpec& spec, double load_N);
 
 }  // namespace rollrig::scenarios

@@ -6,6 +6,7 @@
 
 #include "models/tire/conversion_laws.h"
 #include "models/tire/drum_curvature.h"
+#include "models/wheel/rolling_wheel.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -22,11 +23,14 @@ constexpr double kIsoAmbientLimit_K = 0.2;              // Assumed: a calibrated
 constexpr double kIsoDiameterLimit_m = 0.001;           // Assumed: measured with a tape around the drum
 constexpr double kIsoPressureLimit_Pa = 1e3;            // Assumed: a gauge with a resolution of 1 kPa
 constexpr double kIsoSpeedLimit_m_s = 0.1 / kKmhPerMs;  // Assumed: a counter on the drum's shaft
+constexpr double kIsoTimeLimit = 0.001;                 // Assumed: of speed over time, a counter and a clock
+constexpr double kIsoAngleLimit_rad = 5e-5;             // Assumed: what tests in both directions of rotation leave
+constexpr double kIsoInertiaLimit = 0.005;              // Assumed: of drum and wheel, by a known torque
 constexpr std::size_t kFewestCycles = 3;                // Assumed: whose scatter says more than the sensor's file
 
 /// Places of the inputs.
 namespace iso_input {
-enum : std::size_t { kForce, kOffset, kGain, kLoad, kDiameter, kAmbient, kSpeed, kPressure };
+enum : std::size_t { kReading, kOffset, kGain, kLoad, kDiameter, kAmbient, kSpeed, kPressure, kOfMethod };
 }
 
 /// An input with the half-width of a setting, else an assumed one.
@@ -99,22 +103,64 @@ ScatterOfCycles calc_scatter(const std::vector<Cycle>& cycles) {
   return {std::sqrt(squares / (2.0 * (n - 1.0))), 2.0 * (n - 1.0) * (n - 1.0) / (3.0 * n - 4.0)};
 }
 
+/// What stands for the sensor of a method.
+struct MethodSensor {
+  models::SensorParameters sensor;
+  std::string source;
+  bool is_assumed = false;
+};
+
+/// The sensor of the run for the method's channel; else, of force and power, one as good as that of the torque.
+MethodSensor find_method_sensor(const RunSpec& spec, const std::string& method, double speed_m_s) {
+  const std::string by_sensor = "noise, drift and resolution of the sensor, of the means over the two windows";
+  if (method == kTorqueMethod) return {find_force_sensor(spec), by_sensor};
+  const Quantity& channel = method == kForceMethod ? quantities::kSpindleForce : quantities::kMotorPower;
+  if (spec.sensors.has_value() && spec.sensors->count(channel) > 0) return {spec.sensors->at(channel), by_sensor};
+  const double per_torque = (method == kForceMethod ? 1.0 : speed_m_s) / spec.rig.lever_m();
+  models::SensorParameters sensor = find_force_sensor(spec);
+  for (double* of : {&sensor.offset_sd, &sensor.drift_sd, &sensor.noise_sd, &sensor.resolution}) *of *= per_torque;
+  return {sensor, "Assumed: a sensor as good as that of the torque; no file gives it", true};
+}
+
+/// A key with the unit of the method's readings.
+std::string find_reading_key(const RunSpec& spec, const std::string& method) {
+  if (method == kForceMethod) return "force_N";
+  if (method == kPowerMethod) return "power_W";
+  if (method == kDecelerationMethod) return "deceleration_m_s2";
+  return spec.rig.kind->traits.force.header();
+}
+
+/// The error of one deceleration, as if the loaded one had all of it.
+/// Equation  s^2 = s_t^2 + (c_s/c_t)^2 s_s^2
+UncertainInput make_deceleration_input(const RunSpec& spec, const Cycle& cycle, const MethodReadings& readings) {
+  const double mass_ratio =
+      calc_coasting_mass_kg(spec, cycle.skim.load_N) / calc_coasting_mass_kg(spec, cycle.loaded.load_N);
+  UncertainInput input{"scatter of the coasts", "deceleration_m_s2", readings.loaded - readings.skim,
+                       std::hypot(readings.loaded_sd, mass_ratio * readings.skim_sd)};
+  input.source = "scatter of the speeds about the curves that fit the coasts";
+  input.evaluation = Evaluation::kTypeA;
+  return input;
+}
+
 /// The difference of the two readings: its error from noise, drift and resolution, by the sensor or by the cycles.
-UncertainInput make_force_input(const RunSpec& spec, const std::vector<Cycle>& cycles) {
+UncertainInput make_reading_input(const RunSpec& spec, const std::vector<Cycle>& cycles,
+                                  const MethodReadings& readings) {
   const Cycle& cycle = cycles.back();
-  const models::SensorParameters sensor = find_force_sensor(spec);
-  const double lever_m = spec.rig.lever_m();
-  UncertainInput input{"noise and drift, load minus skim", spec.rig.kind->traits.force.header(),
-                       cycle.rolling_resistance_N * lever_m};
-  if (!has_scatter(spec, cycles)) {
-    input.standard_uncertainty = std::sqrt(models::calc_difference_variance(
-        sensor, cycle.loaded.samples, spec.sample_interval_s, cycle.skim.window.start_s - cycle.loaded.window.start_s));
-    input.source = "noise, drift and resolution of the sensor, of the means over the two windows";
+  if (readings.method == kDecelerationMethod) return make_deceleration_input(spec, cycle, readings);
+  UncertainInput input{"noise and drift, load minus skim", find_reading_key(spec, readings.method),
+                       readings.loaded - readings.skim};
+  if (readings.method != kTorqueMethod || !has_scatter(spec, cycles)) {
+    const MethodSensor at = find_method_sensor(spec, readings.method, cycle.loaded.speed_m_s);
+    input.standard_uncertainty =
+        std::sqrt(models::calc_difference_variance(at.sensor, cycle.loaded.samples, spec.sample_interval_s,
+                                                   cycle.skim.window.start_s - cycle.loaded.window.start_s));
+    input.source = at.source;
+    input.is_from_limits = at.is_assumed;
     return input;
   }
   const ScatterOfCycles scatter = calc_scatter(cycles);
   input.name = "repeatability, cycle to cycle";
-  input.standard_uncertainty = lever_m * scatter.sd_N;
+  input.standard_uncertainty = spec.rig.lever_m() * scatter.sd_N;
   input.degrees_freedom = scatter.degrees_of_freedom;
   input.evaluation = Evaluation::kTypeA;
   input.distribution = Distribution::kStudentT;
@@ -147,24 +193,96 @@ UncertainInput make_diameter_input(const RunSpec& spec, const IsoAccuracies& acc
   return input;
 }
 
-std::vector<UncertainInput> make_iso_inputs(const RunSpec& spec, const std::vector<Cycle>& cycles, double pressure_Pa,
+/// The common offset of both readings. A deceleration is a slope, which has none.
+UncertainInput make_offset_input(const RunSpec& spec, const MethodReadings& readings, double speed_m_s) {
+  UncertainInput offset{"zero of torque or force", find_reading_key(spec, readings.method)};
+  if (readings.method == kPowerMethod) offset.name = "zero of the power";
+  if (readings.method == kDecelerationMethod) {
+    offset.name = "zero of the speed";
+    offset.source = "none: a slope over time has no zero";
+    return offset;
+  }
+  const MethodSensor at = find_method_sensor(spec, readings.method, speed_m_s);
+  offset.standard_uncertainty = at.sensor.offset_sd;
+  offset.is_from_limits = at.is_assumed;
+  offset.source = at.is_assumed ? at.source : "offset of the sensor; the skim test cancels it";
+  return offset;
+}
+
+UncertainInput make_gain_input(const MethodReadings& readings, const IsoAccuracies& accuracies) {
+  const bool is_time = readings.method == kDecelerationMethod;
+  const char* name = is_time                           ? "gain of speed over time"
+                     : readings.method == kPowerMethod ? "gain of the power"
+                                                       : "gain of torque or force";
+  return make_instrument_input(name, "gain_percent", 1.0, accuracies.gain, is_time ? kIsoTimeLimit : kIsoGainLimit);
+}
+
+/// What one method alone rests on: the angle of the force cell, or the inertias. No line of the others.
+void add_method_input(const MethodReadings& readings, const IsoAccuracies& accuracies,
+                      std::vector<UncertainInput>& inputs) {
+  if (readings.method == kForceMethod) {
+    inputs.push_back(make_instrument_input("angle of the force cell to the load", "angle_mrad",
+                                           readings.misalignment_rad, accuracies.force_cell_angle_rad,
+                                           kIsoAngleLimit_rad));
+  } else if (readings.method == kDecelerationMethod) {
+    inputs.push_back(
+        make_instrument_input("inertias of drum and wheel", "gain_percent", 1.0, accuracies.inertia, kIsoInertiaLimit));
+  }
+}
+
+std::vector<UncertainInput> make_iso_inputs(const RunSpec& spec, const std::vector<Cycle>& cycles,
+                                            const MethodReadings& readings, double pressure_Pa,
                                             const IsoAccuracies& accuracies) {
   const Reading& loaded = cycles.back().loaded;
-  UncertainInput offset{"zero of torque or force", spec.rig.kind->traits.force.header(), 0.0,
-                        find_force_sensor(spec).offset_sd};
-  offset.source = "offset of the sensor; the skim test cancels it";
   const std::optional<double> load_N =
       accuracies.load.has_value() ? std::optional(*accuracies.load * loaded.load_N) : std::nullopt;
-  return {make_force_input(spec, cycles),
-          offset,
-          make_instrument_input("gain of torque or force", "gain_percent", 1.0, accuracies.gain, kIsoGainLimit),
-          make_instrument_input("load", "load_N", loaded.load_N, load_N, kIsoLoadLimit * loaded.load_N),
-          make_diameter_input(spec, accuracies),
-          make_instrument_input("ambient temperature", "ambient_degC", loaded.ambient_K, accuracies.ambient_K,
-                                kIsoAmbientLimit_K),
-          make_instrument_input("speed", "speed_km_h", loaded.speed_m_s, accuracies.speed_m_s, kIsoSpeedLimit_m_s),
-          make_pressure_input(spec, pressure_Pa, accuracies)};
+  std::vector<UncertainInput> inputs{
+      make_reading_input(spec, cycles, readings),
+      make_offset_input(spec, readings, loaded.speed_m_s),
+      make_gain_input(readings, accuracies),
+      make_instrument_input("load", "load_N", loaded.load_N, load_N, kIsoLoadLimit * loaded.load_N),
+      make_diameter_input(spec, accuracies),
+      make_instrument_input("ambient temperature", "ambient_degC", loaded.ambient_K, accuracies.ambient_K,
+                            kIsoAmbientLimit_K),
+      make_instrument_input("speed", "speed_km_h", loaded.speed_m_s, accuracies.speed_m_s, kIsoSpeedLimit_m_s),
+      make_pressure_input(spec, pressure_Pa, accuracies)};
+  add_method_input(readings, accuracies, inputs);
+  return inputs;
 }
+
+/// The force at the surface that a method makes of a reading, for inputs of other values.
+class MethodForce {
+ public:
+  MethodForce(const RunSpec& spec, const MethodReadings& readings, double speed_m_s)
+      : spec_(spec), readings_(readings), speed_m_s_(speed_m_s), is_drum_(reads_torque(spec.rig.kind->traits)) {}
+
+  double calc_N(const Reading& at, double reading, const std::vector<double>& x) const {
+    const double lever_m = is_drum_ ? 0.5 * x[iso_input::kDiameter] : spec_.rig.lever_m();
+    if (readings_.method == kForceMethod) {
+      const double shown_N = reading + at.load_N * std::sin(x[iso_input::kOfMethod]);
+      return shown_N * models::calc_rolling_ratio(find_radius_m(at), is_drum_ ? 1.0 / lever_m : 0.0);
+    }
+    if (readings_.method == kPowerMethod) return reading / (at.speed_m_s * x[iso_input::kSpeed] / speed_m_s_);
+    if (readings_.method == kDecelerationMethod) return calc_deceleration_force_N(at, reading, lever_m, x);
+    return reading / lever_m;
+  }
+
+ private:
+  double find_radius_m(const Reading& at) const { return calc_loaded_radius_m(spec_.tire.values, at.load_N); }
+
+  /// A surface speed follows from the turning of the drum, so that a larger drum decelerates more.
+  double calc_deceleration_force_N(const Reading& at, double deceleration_m_s2, double lever_m,
+                                   const std::vector<double>& x) const {
+    const double drum_kg = spec_.rig.inertia() / (lever_m * lever_m);
+    const double mass_kg = drum_kg + calc_spin_mass_kg(spec_.tire.values, find_radius_m(at));
+    return x[iso_input::kOfMethod] * mass_kg * deceleration_m_s2 * lever_m / spec_.rig.lever_m();
+  }
+
+  const RunSpec& spec_;
+  MethodReadings readings_;
+  double speed_m_s_;
+  bool is_drum_;
+};
 
 /// K_r for another diameter of a drum, over that for the rig's own; 1 on a belt.
 double calc_diameter_correction(const RunSpec& spec, double diameter_m) {
@@ -179,24 +297,28 @@ double calc_diameter_correction(const RunSpec& spec, double diameter_m) {
 
 }  // namespace
 
-MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& cycles, double pressure_Pa,
-                                const IsoAccuracies& accuracies, const IsoSimulation& simulate) {
+MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& cycles, const MethodReadings& readings,
+                                double pressure_Pa, const IsoAccuracies& accuracies, const IsoSimulation& simulate) {
   MeasurementModel model;
-  model.measurands = {{"RRc at 25 degC, 2 m drum", "rrc_25degC_2m_N_per_kN"}, {"RRc as measured", "rrc_N_per_kN"}};
-  model.inputs = make_iso_inputs(spec, cycles, pressure_Pa, accuracies);
+  const std::string by = readings.method == kTorqueMethod ? "" : fmt::format(" by the {} method", readings.method);
+  model.measurands = {{"RRc at 25 degC, 2 m drum", "rrc_25degC_2m_N_per_kN"}, {"RRc as measured" + by, "rrc_N_per_kN"}};
+  model.inputs = make_iso_inputs(spec, cycles, readings, pressure_Pa, accuracies);
   model.left_out = {"mounting of the tire, and how the test repeats from day to day: this is one test"};
-  if (!has_scatter(spec, cycles)) {
+  if (readings.method == kTorqueMethod && !has_scatter(spec, cycles)) {
     model.left_out.push_back(fmt::format(
         "repeatability from cycle to cycle: it takes measurement_cycles = {} or more, with sensors", kFewestCycles));
   }
-  const IsoResponse response(simulate, model.inputs[iso_input::kSpeed].value, pressure_Pa);
-  const double skim_Nm = cycles.back().skim.force_N * spec.rig.lever_m();
-  model.evaluate = [&spec, response, skim_Nm, rig_lever_m = spec.rig.lever_m()](const std::vector<double>& x) {
-    const double loaded_reading = x[iso_input::kGain] * (skim_Nm + x[iso_input::kForce] + x[iso_input::kOffset]);
-    const double skim_reading = x[iso_input::kGain] * (skim_Nm + x[iso_input::kOffset]);
-    const double lever_m = reads_torque(spec.rig.kind->traits) ? 0.5 * x[iso_input::kDiameter] : rig_lever_m;
+  if (readings.method == kPowerMethod) {
+    model.left_out.push_back("losses of the motor that are not the same loaded and in the skim test");
+  }
+  const double speed_m_s = model.inputs[iso_input::kSpeed].value;
+  const IsoResponse response(simulate, speed_m_s, pressure_Pa);
+  const MethodForce force(spec, readings, speed_m_s);
+  model.evaluate = [&spec, response, force, skim = readings.skim, cycle = cycles.back()](const std::vector<double>& x) {
+    const double loaded_N = force.calc_N(cycle.loaded, skim + x[iso_input::kReading] + x[iso_input::kOffset], x);
+    const double skim_N = force.calc_N(cycle.skim, skim + x[iso_input::kOffset], x);
     const double resistance_N =
-        (loaded_reading - skim_reading) / lever_m * response.calc_ratio(x[iso_input::kSpeed], x[iso_input::kPressure]);
+        x[iso_input::kGain] * (loaded_N - skim_N) * response.calc_ratio(x[iso_input::kSpeed], x[iso_input::kPressure]);
     const double rrc = resistance_N / x[iso_input::kLoad];
     return std::vector<double>{
         correct_rrc(rrc, x[iso_input::kAmbient], spec) * calc_diameter_correction(spec, x[iso_input::kDiameter]), rrc};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "estimation/uncertainty/measurement_model.h"
+#include "scenarios/common/iso_methods.h"
 #include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios {
@@ -19,12 +20,17 @@ struct IsoAccuracies {
   std::optional<double> ambient_K;
   std::optional<double> speed_m_s;
   std::optional<double> pressure_Pa;
+  std::optional<double> force_cell_angle_rad;
+  std::optional<double> inertia;
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"gain_accuracy_percent", between(0.0, 50.0),
-                "For the uncertainty budget: +- of the gain of torque or force. Default: 0.5, assumed"},
-          p.gain);
+    visit(
+        Field{
+            "gain_accuracy_percent", between(0.0, 50.0),
+            "For the uncertainty budget: +- of the gain of torque, force or power; of the deceleration method of speed "
+            "over time. Default: 0.5, of speed over time 0.1, assumed"},
+        p.gain);
     visit(Field{"load_accuracy_percent", between(0.0, 50.0), "Likewise of the load. Default: 0.5, assumed"}, p.load);
     visit(Field{"drum_diameter_accuracy_m", between(0.0, 1.0), "Likewise. Default: 0.001, assumed"}, p.drum_diameter_m);
     visit(Field{"ambient_accuracy_K", between(0.0, 20.0), "Likewise of the air temperature. Default: 0.2, assumed"},
@@ -33,23 +39,35 @@ struct IsoAccuracies {
     visit(Field{"pressure_accuracy_kPa", between(0.0, 100.0),
                 "Likewise of the pressure as set. Default: by the sensor of the cavity pressure, else 1, assumed"},
           p.pressure_Pa);
+    visit(Field{"force_cell_angle_accuracy_mrad", between(0.0, 20.0),
+                "Of the force method: +- of the angle of the force cell to the load. Default: 0.05, assumed"},
+          p.force_cell_angle_rad);
+    visit(Field{"inertia_accuracy_percent", between(0.0, 50.0),
+                "Of the deceleration method: +- of the inertias of drum and wheel. Default: 0.5, assumed"},
+          p.inertia);
   }
 };
 
 /// F_r of the test at another speed [m/s] and another cold pressure [Pa], without errors of sensors.
 using IsoSimulation = std::function<double(double speed_m_s, double pressure_Pa)>;
 
-/// RRc of the last cycle, corrected to 25 degC and the 2 m drum, as correct_rrc() has it, and RRc as measured.
-/// Equation  RRc = (1 + g) (T_t - T_skim + e) r(v, p) / (R L) K_r(R) (1 + K_t (T_amb - 25 degC))
-/// Symbols   T_t, T_skim readings of torque (of a belt: force, R = 1); o their common offset, which cancels; g relative
-///           error of their gain; e error of their difference from noise, drift and resolution, or from cycle to cycle;
-///           L reading of the load; R = D/2 radius of the drum; r(v, p) = F_r(v, p) / F_r(v_0, p_0), by simulation in
-///           second order; K_r, K_t of correct_rrc()
+/// RRc of the last cycle by the method of the readings, corrected to 25 degC and the 2 m drum, as correct_rrc() has it,
+/// and RRc as measured.
+/// Equation  RRc = (1 + g) [c_t (X_t + e + o) - c_s (X_s + o)] r(v, p) / L K_r(R) (1 + K_t (T_amb - 25 degC));
+///           torque: c = 1/R; force: c = 1 + r/R, X = F_t + L sin d; power: c = 1/v; deceleration: c = I_D/R^2 +
+///           I_T/r^2
+/// Symbols   X_t, X_s readings, loaded and in the skim test: torque (of a belt force, R = 1), force of the spindle, power,
+///           deceleration; c_t, c_s what makes them a force; o their common offset, which cancels where both c are
+///           equal; g relative error of their gain; e error of their difference from noise, drift and resolution, or
+///           from cycle to cycle; d angle of the force cell to the load; L reading of the load; R = D/2 radius of the
+///           drum; r loaded radius; I_D, I_T inertias of drum, and of tire and wheel, with one relative error; r(v, p)
+///           = F_r(v, p) / F_r(v_0, p_0), by simulation in second order; K_r, K_t of correct_rrc()
 /// Validity  errors of instruments, not of the procedure: a tire that is not warm is in `unsettled`
 /// Source    the equations of readings.h. Uncertainties: `accuracies`, sensors of the run, else usual ones of the
 ///           machine, else "Assumed", which the budget marks
 /// Checked   tests/scenarios/iso_uncertainty_test.cpp
-estimation::MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& cycles, double pressure_Pa,
+estimation::MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& cycles,
+                                            const MethodReadings& readings, double pressure_Pa,
                                             const IsoAccuracies& accuracies, const IsoSimulation& simulate);
 
 }  // namespace rollrig::scenarios

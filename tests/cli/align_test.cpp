@@ -184,3 +184,31 @@ TEST_CASE("the certificate has the numbers of the JSON, the hash of its file, an
                        Contains("data-json=\"/valid_until\">2028-"));
   CHECK_THAT(page, !Contains("<script"));
 }
+
+TEST_CASE("an alignment and a value on it have a budget and Monte Carlo, which change nothing else", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string fit =
+      "align " + kAlignmentExample + " --reference-machine drum_A --reference 1.003 -0.05 --quiet --force --out ";
+  REQUIRE(run_program(fit + "plain", folder.path()).status == 0);
+  REQUIRE(run_program(fit + "one --monte-carlo 2000 --threads 1", folder.path()).status == 0);
+  REQUIRE(run_program(fit + "two --monte-carlo 2000 --threads 3", folder.path()).status == 0);
+  CHECK(read_file(folder.file("one/alignment.json")) == read_file(folder.file("two/alignment.json")));
+  json more = json::parse(read_file(folder.file("one/alignment.json")));
+  const json budgets = more["uncertainty"]["budgets"];
+  CHECK(budgets[0]["key"] == "A2");
+  CHECK(budgets[0]["combined_standard_uncertainty"].get<double>() ==
+        Approx(more["line"]["A2"]["sd"].get<double>()).epsilon(0.01));
+  more.erase("uncertainty");
+  CHECK(more == json::parse(read_file(folder.file("plain/alignment.json"))));
+
+  const std::string apply = "align --apply plain/alignment.json --rrc 8.1 --on 2026-06-01 --json - ";
+  const json value = json::parse(run_program(apply, folder.path()).out);
+  const json uncertain = json::parse(run_program(apply + "--monte-carlo 20000", folder.path()).out);
+  const json& budget = uncertain["uncertainty"]["budgets"][0];
+  CHECK(budget["value"].get<double>() == Approx(value["aligned_N_per_kN"].get<double>()));
+  CHECK(budget["combined_standard_uncertainty"].get<double>() == Approx(value["sd_N_per_kN"].get<double>()));
+  const auto text = run_program("align --apply plain/alignment.json --rrc 8.1 --monte-carlo 300", folder.path());
+  CHECK(text.status == 0);
+  CHECK(longest_line(text.out) <= 80);
+  CHECK_THAT(text.out, Contains("Monte Carlo beside the GUM, 300 trials"));
+}

@@ -44,9 +44,25 @@ TEST_CASE("fit road-load by procedures: tables of 80 columns, JSON, points and p
     CHECK_THAT(run.out, Contains("scatter of the runs") && Contains("air temperature"));
     CHECK_THAT(tests::read_file(folder.file("page.html")), Contains("scatter of the runs"));
     const Json json = Json::parse(tests::read_file(folder.file("fitted/road_load.json")));
-    CHECK(json["format"] == "rollrig-road-load-procedure/1");
+    CHECK(json["format"] == "rollrig-road-load-procedure/2");
     CHECK(json["procedure"] == method);
     CHECK(json["f2_N_per_km_h2"].get<double>() == Approx(0.031).epsilon(0.2));
+    CHECK_FALSE(json.contains("uncertainty"));
+    const auto asked = run_program(command + " --monte-carlo 300 --seed 5 --threads 1", folder.path());
+    REQUIRE(asked.status == 0);
+    CHECK(longest_line(asked.out) <= 80);
+    CHECK_THAT(asked.out,
+               Contains("Uncertainty of f0_N") && Contains("Monte Carlo beside the GUM, 300 trials, seed 5"));
+    Json more = Json::parse(tests::read_file(folder.file("fitted/road_load.json")));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Json& budget = more["uncertainty"]["budgets"][i];
+      const std::string key = budget["key"].get<std::string>();
+      CHECK(budget["value"].get<double>() == Approx(json[key].get<double>()).margin(1e-12));
+      CHECK(budget["combined_standard_uncertainty"].get<double>() ==
+            Approx(json[key + "_sd"].get<double>()).epsilon(0.01).margin(1e-12));
+    }
+    more.erase("uncertainty");
+    CHECK(more == json);
     CHECK(json["f0_N_sd"].get<double>() >= json["sd_of_runs"]["f0_N"].get<double>());
     CHECK(CsvTable::read(folder.file("fitted/points.csv")).has("measured_N"));
   }
@@ -67,6 +83,8 @@ TEST_CASE("fit road-load by procedures: options and files that do not go togethe
   CHECK_THAT(error_of("--method wltp --per-mass"), Contains("--per-mass has no meaning"));
   CHECK_THAT(error_of("--mass 1850 --corrected-mass 1800"), Contains("--corrected-mass has no meaning"));
   CHECK_THAT(error_of("--method wltp --mass 1850 --wheel-radius 0.3"), Contains("torque-meter"));
+  CHECK_THAT(error_of("--method j1263 --mass 1850 --corrected-mass 1800"), Contains("no correction for the mass"));
+  CHECK_THAT(error_of("--method wltp --mass 1850 --monte-carlo 5"), Contains("--monte-carlo"));
   CHECK_THAT(error_of("--method torque-meter --mass 1850"), Contains("column"));
   CHECK_THAT(error_of("--method wltp --mass 1850 --leave-out 9"), Contains("run '9'"));
   CHECK_THAT(error_of("--method wltp --mass 1850 --leave-out 1"),

@@ -46,18 +46,68 @@ TEST_CASE("reference conditions: the wind that both headings have, and the mass"
   CHECK(correct_to_reference(kMeasured, correction)(2) == Approx(0.42));
 }
 
+namespace {
+
+TestedRoadLoad make_tested() {
+  TestedRoadLoad tested;
+  tested.measured = kMeasured;
+  tested.correction = make_correction();
+  tested.correction.wind_m_s = 2.0;
+  return tested;
+}
+
+/// What one standard deviation of the accuracy of a sensor does.
+Eigen::Vector3d change_by(const TestedRoadLoad& tested, const std::string& name) {
+  for (const SensorContribution& one : list_sensor_contributions(tested)) {
+    if (one.sensor.name == name) return one.change;
+  }
+  FAIL("no sensor " + name);
+  return {};
+}
+
+}  // namespace
+
 TEST_CASE("reference conditions: what sensors do to the coefficients", "[fast]") {
-  ReferenceCorrection correction = make_correction();
-  correction.wind_m_s = 2.0;
-  const auto list = list_sensor_contributions(kMeasured, correction, true);
-  REQUIRE(list.size() == 4);
+  TestedRoadLoad tested = make_tested();
+  CHECK(list_sensor_contributions(tested).size() == 5);
   const double root3 = std::sqrt(3.0);
-  CHECK(list[0].change(0) == Approx(0.0086 * (120.0 - 0.42 * 4.0) / root3));
-  CHECK(list[1].change(0) == Approx(0.0));
-  CHECK(list[1].change(2) == Approx(-0.42 * 0.003 / root3).epsilon(0.01));
-  CHECK(list[2].change(0) == Approx(-0.42 * (2.3 * 2.3 - 4.0) / root3));
-  CHECK(list[3].change(1) == Approx(1.8 * 10.0 / 1800.0 / root3));
+  CHECK(change_by(tested, "air temperature")(0) == Approx(0.0086 * (120.0 - 0.42 * 4.0) / root3));
+  CHECK(change_by(tested, "air pressure")(0) == Approx(0.0));
+  CHECK(change_by(tested, "air pressure")(2) == Approx(-0.42 * 0.003 / root3).epsilon(0.01));
+  CHECK(change_by(tested, "wind speed")(0) == Approx(-0.42 * (2.3 * 2.3 - 4.0) / root3));
+  CHECK(change_by(tested, "mass")(1) == Approx(1.8 * 10.0 / 1800.0 / root3));
   // the force at the mass to which it is corrected does not depend on the scale
-  CHECK(list[3].change(0) == Approx(-0.42 * 4.0 * 10.0 / 1800.0 / root3).epsilon(0.02));
-  CHECK(list_sensor_contributions(kMeasured, correction, false)[3].change(1) == Approx(0.0));
+  CHECK(change_by(tested, "mass")(0) == Approx(-0.42 * 4.0 * 10.0 / 1800.0 / root3).epsilon(0.02));
+  tested.in_proportion_to_mass = false;
+  CHECK(change_by(tested, "mass")(1) == Approx(0.0));
+}
+
+TEST_CASE("reference conditions: a speed that reads high moves the curve along, whatever the coefficients", "[fast]") {
+  TestedRoadLoad tested;
+  tested.measured = kMeasured;
+  tested.correction = make_correction();
+  const double e = 0.2 / 3.6;
+  const Eigen::Vector3d moved = kMeasured + std::sqrt(3.0) * change_by(tested, "vehicle speed");
+  for (const double v : {5.0, 20.0, 35.0}) {  // the force at v is what was read at v - e
+    const double read_N = kMeasured(0) + (v - e) * (kMeasured(1) + (v - e) * kMeasured(2));
+    CHECK(moved(0) + v * (moved(1) + v * moved(2)) == Approx(read_N));
+  }
+}
+
+TEST_CASE("reference conditions: a torque meter adds to the force by the radius, which speed and turns decide",
+          "[fast]") {
+  TestedRoadLoad tested = make_tested();
+  tested.in_proportion_to_mass = false;
+  tested.force_per_unit = 1.02 / 0.33;
+  tested.most_torque_Nm = 400.0;
+  const double root3 = std::sqrt(3.0);
+  CHECK(change_by(tested, "wheel torque")(0) == Approx(6.0 * 1.02 / 0.33 / root3));
+  CHECK(change_by(tested, "wheel torque")(2) == Approx(0.0));
+  tested.most_torque_Nm = 2000.0;  // 0.5 % of it is more than 6 Nm
+  CHECK(change_by(tested, "wheel torque")(0) == Approx(10.0 * 1.02 / 0.33 / root3));
+  const double without = change_by(tested, "vehicle speed")(2);
+  CHECK(without == Approx(0.0).margin(1e-12));
+  tested.turns_at_radius_Hz = 10.5;  // a wheel that is read to turn faster is smaller, so that the force is larger
+  CHECK(change_by(tested, "wheel speed")(2) == Approx(0.42 * 1.02 / 0.33 * 0.05 / 10.5 / root3));
+  CHECK(change_by(tested, "vehicle speed")(2) == Approx(-0.42 * 1.02 / 0.33 * 0.2 / 80.2 / root3));
 }

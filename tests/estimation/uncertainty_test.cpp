@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "estimation/uncertainty/uncertainty.h"
+#include "estimation/uncertainty/usual_inputs.h"
 #include "include/rollrig/error.h"
 
 using namespace rollrig;
@@ -157,6 +158,34 @@ TEST_CASE("Student's t of a mean of repeated observations is drawn with its own 
   CHECK(result.high == Approx(2.0 * 2.776).margin(5 * result.high_sd));  // GUM table G.2: t_95(4) = 2.78
   CHECK(calc_budgets(model)[0].expanded == Approx(2.0 * 2.776).epsilon(1e-3));
   CHECK(result.verdict != GumVerdict::kDiffers);
+}
+
+TEST_CASE("errors with one estimated standard deviation have a joint t distribution, one line and its freedom",
+          "[fast]") {
+  // Their sum over three has sqrt(3) times Student's t of four degrees of freedom; independent t of each would have
+  // shorter tails.
+  MeasurementModel model;
+  model.measurands = {{"sum", "force_N"}};
+  model.inputs = make_scatter_inputs(3, 4.0, "scatter", "residuals");
+  model.evaluate = [](const std::vector<double>& x) {
+    const std::vector<double> errors = take_scatter(x, 0, 3);
+    return std::vector<double>{errors[0] + errors[1] + errors[2]};
+  };
+  const MonteCarloResult result = run(model, 100'000);
+  CHECK(result.high == Approx(std::sqrt(3.0) * 2.776).margin(5 * result.high_sd));  // GUM table G.2: t_95(4) = 2.78
+  const UncertaintyBudget budget = calc_budgets(model)[0];
+  CHECK(budget.contributions.size() == 1);
+  CHECK(budget.degrees_freedom == Approx(4.0));
+  CHECK(budget.expanded == Approx(std::sqrt(3.0) * 2.776).epsilon(1e-3));
+  CHECK(result.verdict != GumVerdict::kDiffers);
+}
+
+TEST_CASE("the root of a covariance gives it back, also where a number has no variance", "[fast]") {
+  Eigen::Matrix3d covariance;
+  covariance << 4.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 9.0;
+  const Eigen::MatrixXd root = calc_covariance_root(covariance);
+  CHECK((root * root.transpose() - covariance).norm() == Approx(0.0).margin(1e-12));
+  CHECK(root.row(1).norm() == 0.0);
 }
 
 TEST_CASE("Monte Carlo gives the same bits for any number of threads, and others for another seed", "[fast]") {

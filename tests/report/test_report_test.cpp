@@ -9,6 +9,7 @@
 #include "sim/core/file_io.h"
 #include "sim/core/json.h"
 #include "tests/support/coastdown_study.h"
+#include "tests/support/procedure_study.h"
 #include "tests/support/run_program.h"
 
 using namespace rollrig;
@@ -145,6 +146,12 @@ TEST_CASE("report of an ISO test of many cycles with Monte Carlo on A4", "[slow]
                   "--shows 'repeatability, cycle to cycle'");
 }
 
+TEST_CASE("report of an ISO test by the force method on A4", "[slow]") {
+  check_report_of(TemporaryFolder(),
+                  "run iso_28580 --tire a50 --fidelity quasi_static --set method=force --monte-carlo 1000",
+                  "--shows 'angle of the force cell to the load'");
+}
+
 TEST_CASE("report of an ISO test on a flat belt on A4", "[slow]") {
   check_report_of(TemporaryFolder(), "run iso_28580 --tire a50 --rig flat_belt --fidelity quasi_static");
 }
@@ -176,22 +183,21 @@ TEST_CASE("a report has class, load index, method and label class where the tire
   CHECK(run.out.find("data-json=\"/result/methods/2/rolling_resistance_N\"") != std::string::npos);
 }
 
-TEST_CASE("a report of another method than torque has no budget, and asking for one says why", "[fast]") {
+TEST_CASE("a report of another method than torque has the budget of that method", "[fast]") {
   const TemporaryFolder folder;
-  const std::string command = "run iso_28580 --tire a50 --fidelity quasi_static --quiet --set method=deceleration ";
-  const auto run = run_program(command + "--report - ", folder.path());
+  const auto run = run_program(
+      "run iso_28580 --tire a50 --fidelity quasi_static --quiet --set method=deceleration --report - ", folder.path());
   REQUIRE(run.status == 0);
   CHECK(run.out.find("data-json=\"/result/method\"") != std::string::npos);
-  CHECK(run.out.find("/uncertainty") == std::string::npos);
-  const auto asked = run_program(command + "--uncertainty", folder.path());
-  CHECK(asked.status == 2);
-  CHECK(asked.err.find("torque method") != std::string::npos);
+  CHECK(run.out.find("/uncertainty/budgets/0") != std::string::npos);
+  CHECK(run.out.find("inertias of drum and wheel") != std::string::npos);
 }
 
 TEST_CASE("reports of laws of rolling resistance on A4", "[slow]") {
   const std::string examples = std::string(ROLLRIG_SOURCE_DIR) + "/assets/examples/";
   const std::string tire = " --maximum-load 6570 --base-pressure 240";
-  check_report_of(TemporaryFolder(), "fit j2452 '" + examples + "j2452_points.csv'" + tire, "--shows SMERF");
+  check_report_of(TemporaryFolder(), "fit j2452 '" + examples + "j2452_points.csv'" + tire + " --monte-carlo 500",
+                  "--shows SMERF");
   check_report_of(TemporaryFolder(), "fit j2452 '" + examples + "j2452_points.csv'",
                   "--shows 'maximum load or base pressure is not known'");
   check_report_of(TemporaryFolder(), "fit j1269 '" + examples + "j1269_points.csv'" + tire, "--shows J1269");
@@ -200,6 +206,20 @@ TEST_CASE("reports of laws of rolling resistance on A4", "[slow]") {
                       folder.path())
               .status == 0);
   check_report_of(folder, "fit j2452 coastdown", "--shows 'come from a simulation'");
+}
+
+TEST_CASE("reports of road loads by procedures on A4", "[slow]") {
+  tests::ProcedureStudy study;
+  study.wind_m_s = 1.0;
+  study.run_force_sd_N = 3.0;
+  const TemporaryFolder folder;
+  write_file(folder.file("wind.csv"), tests::write_procedure_csv(tests::simulate_procedure(study, 1).file.data));
+  study.on_board = true;
+  write_file(folder.file("air.csv"), tests::write_procedure_csv(tests::simulate_procedure(study, 1).file.data));
+  const std::string mass = " --mass 1850 --rotating-mass 55.5 --method ";
+  check_report_of(folder, "fit road-load wind.csv" + mass + "wltp --monte-carlo 1000", "--shows 'Reference speeds'");
+  check_report_of(folder, "fit road-load wind.csv" + mass + "j1263", "--shows 'SAE J1263'");
+  check_report_of(folder, "fit road-load air.csv" + mass + "j2263", "--shows 'air speed'");
 }
 
 TEST_CASE("report of a multi-cycle test on A4", "[slow]") {

@@ -28,6 +28,20 @@ TEST_CASE("the energies of the budget are those of the result, and move as in si
   const std::vector<double> now = model.evaluate(x);
   CHECK(now[0] / 3600.0 == Approx(add_up(outcome.result, "battery_energy_Wh")).epsilon(1e-9));
   CHECK(now[1] / 3600.0 == Approx(add_up(outcome.result, "vehicle_rr_energy_Wh")).epsilon(1e-9));
+  REQUIRE(model.measurands.size() == 2 + 2 * 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Json& cycle = outcome.result["economy"][i];
+    INFO(cycle["name"]);
+    CHECK(model.measurands[2 + 2 * i].key == cycle["name"].get<std::string>() + "_dc_consumption_Wh_per_km");
+    CHECK(now[2 + 2 * i] / 3.6 == Approx(cycle["dc_consumption_Wh_per_km"].get<double>()).epsilon(1e-9));
+    CHECK(now[3 + 2 * i] / 1e3 == Approx(cycle["range_km"].get<double>()).epsilon(1e-9));
+  }
+  // One meter measures the usable energy and the consumption: its gain has no part in a range.
+  std::vector<double> gained = x;
+  gained[0] = 1.01;
+  const std::vector<double> read = model.evaluate(gained);
+  CHECK(read[6] == Approx(1.01 * now[6]));
+  CHECK(read[7] == Approx(now[7]));
   // Heavier, warmer: off the point, as --set has it.
   std::vector<std::string> others = settings;
   others.insert(others.end(), {"ambient_degC=27", "vehicle.mass_kg=2250"});
@@ -38,6 +52,7 @@ TEST_CASE("the energies of the budget are those of the result, and move as in si
   const std::vector<double> moved = model.evaluate(x);
   CHECK(moved[1] / 3600.0 == Approx(add_up(other.result, "vehicle_rr_energy_Wh")).epsilon(1e-9));
   CHECK(std::abs(moved[1] / now[1] - 1.0) > 0.005);
+  CHECK(moved[7] / 1e3 == Approx(other.result["economy"][2]["range_km"].get<double>()).epsilon(1e-9));
 }
 
 TEST_CASE("the numbers of a tire file move together by their correlation", "[fast]") {

@@ -4,6 +4,7 @@
 
 #include "estimation/uncertainty/uncertainty.h"
 #include "measurements/sensor_file.h"
+#include "scenarios/common/readings.h"
 #include "sim/core/assets.h"
 #include "tests/support/drum_fixture.h"
 
@@ -76,6 +77,62 @@ TEST_CASE("contributions of the instruments are those of the closed form", "[fas
   // A drum that is larger than was believed has a longer lever: as measured, exactly -1 % for +1 %.
   const double relative_m = 0.001 * third / 2.0;
   CHECK(run.contribution("drum diameter", 1) == Approx(rrc * relative_m).epsilon(1e-3));
+}
+
+TEST_CASE("the budget of each method is of the RRc that the method gives", "[fast]") {
+  for (const char* method : {"torque", "force", "power", "deceleration"}) {
+    INFO(method);
+    const IsoRun run(make_iso({std::string("method=") + method, "ambient_degC=28", "rig.drum.diameter_m=1.7",
+                               "spindle_misalignment_mrad=0.2"}));
+    const auto budgets = calc_budgets(run.model);
+    CHECK(1e3 * budgets[0].value == Approx(number(run.outcome, "rrc_25degC_2m_N_per_kN")).epsilon(1e-12));
+    for (const Json& one : run.outcome.result["methods"]) {
+      if (one["name"] == method) CHECK(1e3 * budgets[1].value == Approx(one["rrc_N_per_kN"].get<double>()));
+    }
+  }
+}
+
+TEST_CASE("what each method alone rests on contributes as its closed form says", "[fast]") {
+  const double third = 1.0 / std::sqrt(3.0);
+  const double relative = 0.001 * third / 2.0;  // of the diameter of 2 m
+  const IsoRun force(make_iso({"method=force", "force_cell_angle_accuracy_mrad=0.3"}));
+  const double load_N = number(force.outcome, "load_N");
+  const double rrc = calc_budgets(force.model)[1].value;
+  const double radius_m = models::calc_loaded_radius_m(force.spec.tire.values, load_N);
+  const double skim_radius_m = models::calc_loaded_radius_m(force.spec.tire.values, 200.0);
+  // L sin d on both readings, each times 1 + r/R
+  CHECK(force.contribution("angle of the force cell to the load", 1) ==
+        Approx(3e-4 * third * (load_N * (1.0 + radius_m) - 200.0 * (1.0 + skim_radius_m)) / load_N).epsilon(1e-3));
+  // A larger drum lowers 1 + r/R.
+  CHECK(force.contribution("drum diameter", 1) == Approx(rrc * relative * radius_m / (1.0 + radius_m)).epsilon(0.01));
+  // A zero cancels but for the two radii.
+  const double offset_N = force.model.inputs[force.place("zero of torque or force")].standard_uncertainty;
+  REQUIRE(offset_N > 0.0);
+  CHECK(force.contribution("zero of torque or force", 1) ==
+        Approx(offset_N * (skim_radius_m - radius_m) / load_N).epsilon(1e-3));
+
+  const IsoRun power(make_iso({"method=power"}));
+  CHECK(power.contribution("drum diameter", 1) == Approx(0.0).margin(1e-12));
+  CHECK(power.contribution("zero of the power", 1) == Approx(0.0).margin(1e-12));
+  CHECK(power.contribution("gain of the power", 1) ==
+        Approx(calc_budgets(power.model)[1].value * 0.005 * third).epsilon(1e-6));
+
+  const IsoRun deceleration(make_iso({"method=deceleration", "inertia_accuracy_percent=1"}));
+  CHECK(deceleration.contribution("inertias of drum and wheel", 1) ==
+        Approx(calc_budgets(deceleration.model)[1].value * 0.01 * third).epsilon(1e-6));
+  CHECK(deceleration.contribution("zero of the speed", 1) == 0.0);
+}
+
+TEST_CASE("power over speed: a speed that is off by 1 % moves the RRc by that and by what the tire does", "[fast]") {
+  const IsoRun power(make_iso({"method=power"}));
+  const IsoRun torque(make_iso());
+  const auto moved = [](const IsoRun& run) {
+    std::vector<double> x = run.values();
+    const double before = run.model.evaluate(x)[1];
+    x[run.place("speed")] *= 1.01;
+    return run.model.evaluate(x)[1] / before;
+  };
+  CHECK(moved(power) == Approx(moved(torque) / 1.01).epsilon(1e-6));
 }
 
 TEST_CASE("an accuracy that is given is used, and no longer assumed", "[fast]") {

@@ -1,0 +1,143 @@
+#include "estimation/rolling_law/rolling_uncertainty.h"
+
+#include <utility>
+
+#include "estimation/uncertainty/usual_inputs.h"
+#include "sim/core/error.h"
+#include "sim/core/units.h"
+
+namespace rollrig::estimation {
+namespace {
+
+// Half-widths of rectangular distributions, common to all points. Assumed: what machines for ISO 28580 have to keep (UN
+// R117 Annex 6, appendix 1); of SAE J2452 and SAE J1269 nothing could be read.
+constexpr double kRollingForceGainLimit = 0.005;
+constexpr double kRollingForceZeroLimit_N = 0.5;
+constexpr double kRollingLoadLimit = 0.005;
+constexpr double kRollingPressureLimit_Pa = 1e3;
+constexpr double kRollingSpeedLimit_m_s = 0.1 / kKmhPerMs;
+
+/// Places of the inputs; the scatter of the points is after them.
+namespace rolling_input {
+enum : std::size_t { kGain, kZero, kLoad, kPressure, kSpeed, kScatter };
+}
+
+std::vector<UncertainInput> make_rolling_inputs(const std::vector<FittedPoint>& points, int freedom) {
+  double speed_m_s = 0.0, pressure_Pa = 0.0;
+  for (const FittedPoint& at : points) {
+    speed_m_s += at.point.speed_m_s / static_cast<double>(points.size());
+    pressure_Pa += at.point.pressure_Pa / static_cast<double>(points.size());
+  }
+  std::vector<UncertainInput> inputs{
+      make_assumed_limit("gain of torque or force", "gain_percent", 1.0, kRollingForceGainLimit, "0.5 %"),
+      make_assumed_limit("zero of torque or force", "force_N", 0.0, kRollingForceZeroLimit_N, "0.5 N"),
+      make_assumed_limit("gain of the load", "gain_percent", 1.0, kRollingLoadLimit, "0.5 %"),
+      make_assumed_limit("pressure", "pressure_kPa", pressure_Pa, kRollingPressureLimit_Pa, "1 kPa"),
+      make_assumed_limit("speed", "speed_km_h", speed_m_s, kRollingSpeedLimit_m_s, "0.1 km/h")};
+  for (UncertainInput& scatter :
+       make_scatter_inputs(points.size(), freedom, "scatter of the points", "standard deviation of the residuals")) {
+    inputs.push_back(std::move(scatter));
+  }
+  return inputs;
+}
+
+/// Points as they would be measured with the errors of the inputs.
+std::vector<RollingPoint> apply_errors(const std::vector<FittedPoint>& points, double residual_sd_N,
+                                       const std::vector<UncertainInput>& inputs, const std::vector<double>& x) {
+  const std::vector<double> scatter = take_scatter(x, rolling_input::kScatter, points.size());
+  const auto error_of = [&](std::size_t i) { return x[i] - inputs[i].value; };
+  std::vector<RollingPoint> measured;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    RollingPoint point = points[i].point;
+    point.force_N =
+        x[rolling_input::kGain] * (points[i].fitted_N + residual_sd_N * scatter[i]) + x[rolling_input::kZero];
+    point.load_N *= x[rolling_input::kLoad];
+    point.pressure_Pa += error_of(rolling_input::kPressure);
+    point.speed_m_s += error_of(rolling_input::kSpeed);
+    measured.push_back(point);
+  }
+  return measured;
+}
+
+void require_freedom(const RollingTest& test, const RegressionStatistics& statistics) {
+  if (statistics.freedom > 0) return;
+  throw InputError(
+      {"as many coefficients as points: their scatter is not known, and there is no uncertainty without it", test.path,
+       0, "--uncertainty", "", "more points, or no --uncertainty and no --monte-carlo", ""});
+}
+
+std::vector<std::string> list_rolling_left_out(const RollingTest& test) {
+  std::vector<std::string> left_out{"the tire itself: break-in, storage, how one tire of a kind differs from another",
+                                    "temperature of the air: the points say nothing of it",
+                                    "diameter and surface of the drum: the forces are those of this machine"};
+  if (test.is_simulated) {
+    left_out.push_back("that the test was simulated: the instruments are those of a machine that would measure it");
+  }
+  return left_out;
+}
+
+/// Fits the law to points with errors. What the errors make of a point that no fit takes is a failed trial.
+template <class Fit>
+auto fit_again(const Fit& fit) {
+  try {
+    return fit();
+  } catch (const InputError& error) {
+    throw RunFailure(error.what());
+  }
+}
+
+}  // namespace
+
+MeasurementModel make_j2452_model(const RollingTest& test, const J2452Fit& fit,
+                                  const std::optional<J2452Reference>& reference) {
+  require_freedom(test, fit.statistics);
+  MeasurementModel model;
+  model.measurands = {{"alpha, exponent of the pressure", "alpha"}, {"beta, exponent of the load", "beta"}};
+  if (reference.has_value()) {
+    model.measurands.insert(model.measurands.end(),
+                            {{"rolling resistance at 80 km/h", "rolling_resistance_N"},
+                             {"coefficient of rolling resistance", "rrc_N_per_kN"},
+                             {"MERF, mean over " + reference->cycles.urban_cycle, "merf_urban_N"},
+                             {"MERF, mean over " + reference->cycles.highway_cycle, "merf_highway_N"},
+                             {"SMERF, 0.55 and 0.45 of these", "smerf_N"}});
+  }
+  model.inputs = make_rolling_inputs(fit.points, fit.statistics.freedom);
+  model.left_out = list_rolling_left_out(test);
+  model.evaluate = [points = fit.points, sd_N = fit.statistics.residual_sd_N, inputs = model.inputs,
+                    reference](const std::vector<double>& x) {
+    const J2452Fit again = fit_again([&] { return fit_j2452(apply_errors(points, sd_N, inputs, x)); });
+    std::vector<double> results{again.law.alpha, again.law.beta};
+    if (reference.has_value()) {
+      const J2452Reference at = evaluate_reference(again, reference->condition, reference->cycles);
+      results.insert(results.end(), {at.force.value_N, at.force.value_N / at.condition.load_N, at.urban.value_N,
+                                     at.highway.value_N, at.combined.value_N});
+    }
+    return results;
+  };
+  return model;
+}
+
+MeasurementModel make_multipoint_model(const RollingTest& test, const MultipointFit& fit,
+                                       const std::optional<MultipointReference>& reference) {
+  require_freedom(test, fit.statistics);
+  MeasurementModel model;
+  const std::string at = reference.has_value() ? "the reference condition" : "mean load and pressure";
+  model.measurands = {{"rolling resistance at " + at, "rolling_resistance_N"},
+                      {"coefficient of rolling resistance", "rrc_N_per_kN"}};
+  model.inputs = make_rolling_inputs(fit.points, fit.statistics.freedom);
+  model.inputs[rolling_input::kSpeed].standard_uncertainty = 0.0;
+  model.inputs[rolling_input::kSpeed].source = "none: the law has one speed";
+  model.inputs[rolling_input::kSpeed].is_from_limits = false;
+  model.left_out = list_rolling_left_out(test);
+  const double load_N = reference.has_value() ? reference->condition.load_N : fit.load_0_N;
+  const double pressure_Pa = reference.has_value() ? reference->condition.pressure_Pa : fit.pressure_0_Pa;
+  model.evaluate = [points = fit.points, form = fit.form, sd_N = fit.statistics.residual_sd_N, inputs = model.inputs,
+                    load_N, pressure_Pa](const std::vector<double>& x) {
+    const MultipointFit again = fit_again([&] { return fit_multipoint(apply_errors(points, sd_N, inputs, x), form); });
+    const double force_N = again.estimate_force(load_N, pressure_Pa).value_N;
+    return std::vector<double>{force_N, force_N / load_N};
+  };
+  return model;
+}
+
+}  // namespace rollrig::estimation
