@@ -87,7 +87,7 @@ TEST_CASE("parts, interruptions and other splits come to the same results", "[fa
   CHECK(read_state(folder, 50).tally.done == 50);
 }
 
-TEST_CASE("one process alone writes a file", "[fast]") {
+TEST_CASE("one process alone writes a file", "[slow]") {
   const TemporaryFolder at;
   const CampaignFolder folder{at.path(), "test", 11};
   const Store store(folder.file_of({1, 2}), "test");
@@ -154,7 +154,7 @@ TEST_CASE("a file of a process that was killed as it made it is empty", "[fast]"
   CHECK(read_all(folder) == read_undisturbed());
 }
 
-TEST_CASE("a file that has a further item is not removed", "[fast]") {
+TEST_CASE("a file that has a further item is not removed", "[slow]") {
   const TemporaryFolder at;
   const CampaignFolder folder{at.path(), "test", 11};
   const std::string file = folder.file_of({1, 1});

@@ -170,7 +170,7 @@ TEST_CASE("items that fail are kept, counted and told", "[fast]") {
   CHECK_THAT(run_to_end("campaign export c --csv -", at), Catch::Contains("pressure_kPa"));
 }
 
-TEST_CASE("which factor a result depends on", "[fast]") {
+TEST_CASE("which factor a result depends on", "[slow]") {
   const TemporaryFolder at;
   run_to_end(std::string("campaign new c ") + kRun +
                  " --draw ambient_degC=uniform:20:30 --draw pressure_kPa=uniform:249:251 --design sobol_indices "

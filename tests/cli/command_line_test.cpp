@@ -195,7 +195,7 @@ TEST_CASE("a sweep tables a grid, the same from one and two threads", "[fast]") 
   CHECK(longest_line(one.out) <= 80);
 }
 
-TEST_CASE("a sweep that is interrupted goes on where it stopped", "[fast]") {
+TEST_CASE("a sweep that is interrupted goes on where it stopped", "[slow]") {
   const TemporaryFolder folder;
   const std::string sweep =
       "sweep iso_28580 --tire a50 --fidelity quasi_static --vary ambient_degC=20:30:0.02 --threads 1 ";
@@ -333,13 +333,13 @@ TEST_CASE("regress: same, differs with exit 1, updated", "[fast]") {
   CHECK(run_program("regress . --json -", folder.path()).status == 0);
 }
 
-TEST_CASE("all regression scenarios are as their goldens", "[fast]") {
+TEST_CASE("all regression scenarios are as their goldens", "[slow]") {
   const auto run = run_program("regress");
   INFO(run.out << run.err);
   CHECK(run.status == 0);
 }
 
-TEST_CASE("every command that writes a page says where", "[fast]") {
+TEST_CASE("every command that writes a page says where", "[slow]") {
   const TemporaryFolder folder;
   fs::create_directory(folder.file("runs"));
   for (const char* file : {"skim_a40.toml", "skim_a40.golden.csv"}) {

@@ -108,7 +108,7 @@ TEST_CASE("the ledger of a loop that is nested too deeply is refused", "[fast]")
   check_refused(run_program("diagnose '" + set + "' --loop loop --hours 8", folder.path()), "nested too deeply");
 }
 
-TEST_CASE("names that lead nowhere are errors of the input", "[fast]") {
+TEST_CASE("names that lead nowhere are errors of the input", "[slow]") {
   const TemporaryFolder folder;
   const std::string long_name(300, 'n');
   fs::create_symlink("loop", folder.file("loop"));

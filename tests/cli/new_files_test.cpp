@@ -68,7 +68,7 @@ json diagnose(const std::string& set, const TemporaryFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("a new tire runs in the tests of tires and of vehicles, and is not written over", "[fast]") {
+TEST_CASE("a new tire runs in the tests of tires and of vehicles, and is not written over", "[slow]") {
   const TemporaryFolder folder;
   const auto made = run_well("new tire --size 205/55R16 --load-index 91 --rrc 8.2 --name mine", folder);
   CHECK_THAT(made.out, Contains("RRc simulated") && Contains("8.200 N/kN") && Contains("mine.toml"));
@@ -97,7 +97,7 @@ TEST_CASE("validate warns of a tire whose RRc is not what its numbers give", "[f
              Contains("gives an RRc of 8.200 N/kN, +2.5 % from the 8.000 N/kN"));
 }
 
-TEST_CASE("a new rig and a new vehicle carry a new tire", "[fast]") {
+TEST_CASE("a new rig and a new vehicle carry a new tire", "[slow]") {
   const TemporaryFolder folder;
   run_well("new tire --size 205/55R16 --load-index 91 --rrc 8.2 --name mine", folder);
   run_well("new rig --name drum --diameter 1.7 --inertia 280", folder);
@@ -125,7 +125,7 @@ TEST_CASE("files of a set that lack a set.toml get one", "[fast]") {
   CHECK_THAT(run_well("validate logs", folder).out, Contains("3 runs"));
 }
 
-TEST_CASE("the mapping that is written makes the set that import --guess makes", "[fast]") {
+TEST_CASE("the mapping that is written makes the set that import --guess makes", "[slow]") {
   const TemporaryFolder folder;
   fs::create_directory(folder.file("logs"));
   rollrig::tests::write_foreign_logs(rollrig::measurements::read_measurement_set(kExample), make_german_style(),

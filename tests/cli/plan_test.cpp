@@ -33,7 +33,7 @@ TEST_CASE("a plan is printed, and written as JSON, as a page and as a folder who
   CHECK(run_program("plan --hours 3 --only torque_gain --out " + out).status == 2);  // it holds files
 }
 
-TEST_CASE("a plan for a machine, an effect or hours that cannot be is refused with what is allowed", "[fast]") {
+TEST_CASE("a plan for a machine, an effect or hours that cannot be is refused with what is allowed", "[slow]") {
   const struct {
     const char* arguments;
     const char* said;

@@ -210,7 +210,7 @@ void check_same_words(const std::string& terminal, const OrderedJson& blocks) {
 
 }  // namespace
 
-TEST_CASE("JSON, terminal, page, reference and sweep agree on every scenario's results", "[fast]") {
+TEST_CASE("JSON, terminal, page, reference and sweep agree on every scenario's results", "[slow]") {
   const OrderedJson scenarios = OrderedJson::parse(run_program("list --json -").out)["scenarios"];
   CHECK(scenarios.size() >= 14);
   for (const OrderedJson& scenario : scenarios) {

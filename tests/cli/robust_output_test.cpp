@@ -144,7 +144,7 @@ TEST_CASE("coastdowns of one heading after those of the other tell no drift in t
   CHECK(fit["A_N"].is_number());
 }
 
-TEST_CASE("an output without a name is refused, in every command", "[fast]") {
+TEST_CASE("an output without a name is refused, in every command", "[slow]") {
   const TemporaryFolder folder;
   for (const char* command :
        {"run skim --tire a50 --out", "run skim --tire a50 --json", "run skim --tire a50 --html",

@@ -19,7 +19,7 @@ using rollrig::tests::run_program;
 using rollrig::tests::TemporaryFolder;
 using rollrig::tests::write_file;
 
-TEST_CASE("a set is written, validated and fitted", "[fast]") {
+TEST_CASE("a set is written, validated and fitted", "[slow]") {
   const TemporaryFolder folder;
   REQUIRE(run_program("run speed_sweep --tire '" ROLLRIG_SOURCE_DIR
                       "/tests/published/combined_law/a50.toml' --sensors source --set 'speeds_km_h=[80, 120]' "
@@ -110,7 +110,7 @@ void write_small_set(const TemporaryFolder& folder, bool in_bar) {
 }
 }  // namespace
 
-TEST_CASE("a fit says that a column looks as if it were in another unit", "[fast]") {
+TEST_CASE("a fit says that a column looks as if it were in another unit", "[slow]") {
   const TemporaryFolder good;
   write_small_set(good, false);
   const auto right = run_program("fit tire set", good.path());
@@ -148,7 +148,7 @@ TEST_CASE("a fit leaves out what a diagnosis leaves out", "[fast]") {
 }
 
 TEST_CASE("validate: 0 for a good set, 1 for one whose columns cannot be right, 2 for one that cannot be read",
-          "[fast]") {
+          "[slow]") {
   const TemporaryFolder good;
   write_small_set(good, false);
   const auto passed = run_program("validate set", good.path());
@@ -184,7 +184,7 @@ TEST_CASE("validate says how many rows are of runs that measured nothing", "[fas
   CHECK_THAT(flatten(run.out), Contains(std::to_string(rows) + " of them in runs that measured nothing"));
 }
 
-TEST_CASE("every asset is valid", "[fast]") {
+TEST_CASE("every asset is valid", "[slow]") {
   for (const char* kind : {"tires", "rigs", "sensors", "regression"}) {
     for (const auto& entry : fs::directory_iterator(fs::path(ROLLRIG_SOURCE_DIR) / "assets" / kind)) {
       if (entry.path().extension() != ".toml") continue;

@@ -52,7 +52,7 @@ const std::vector<std::string>& list_commands() {
 
 }  // namespace
 
-TEST_CASE("no line is wider than the terminal, and nothing is cut", "[fast]") {
+TEST_CASE("no line is wider than the terminal, and nothing is cut", "[slow]") {
   const TemporaryFolder folder;
   for (const std::string& command : list_commands()) {
     std::vector<std::string> words;

@@ -40,7 +40,7 @@ const std::vector<std::string> kFew{"torque_gain", "torque_zero_drift", "slow_le
 
 }  // namespace
 
-TEST_CASE("a campaign keeps to its hours, and more hours show no less", "[fast]") {
+TEST_CASE("a campaign keeps to its hours, and more hours show no less", "[slow]") {
   std::size_t visible = 0;
   double shares = 0.0;
   for (const double hours : {1.5, 4.0, 12.0}) {
@@ -91,7 +91,7 @@ TEST_CASE("the smallest visible size has a detectability of 5 when it is simulat
   }
 }
 
-TEST_CASE("what a campaign promises is what the screening of its measured set finds", "[fast]") {
+TEST_CASE("what a campaign promises is what the screening of its measured set finds", "[slow]") {
   const PlannedCampaign campaign = plan("drum", 6.0, kFew);
   measurements::MeasurementSet set = campaign.set;
   set.runs.clear();
@@ -129,7 +129,7 @@ TEST_CASE("what a campaign promises is what the screening of its measured set fi
   }
 }
 
-TEST_CASE("a campaign's files are run files, a set to fill and a plan", "[fast]") {
+TEST_CASE("a campaign's files are run files, a set to fill and a plan", "[slow]") {
   for (const char* rig : {"drum", "dyno", "road"}) {
     INFO(rig);
     const PlannedCampaign campaign = plan(rig, 5.0, {"torque_gain", "load_exponent", "inertia_error"});

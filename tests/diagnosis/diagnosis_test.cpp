@@ -65,7 +65,7 @@ void check_sound(const Diagnosis& diagnosis) {
 
 }  // namespace
 
-TEST_CASE("bearings that warm are named, with their size, and the gap shrinks", "[fast]") {
+TEST_CASE("bearings that warm are named, with their size, and the gap shrinks", "[slow]") {
   const Diagnosis found = diagnose(warm_bearings(), only(kOfBearings));
   INFO(text_of(found));
   check_sound(found);
@@ -84,7 +84,7 @@ TEST_CASE("bearings that warm are named, with their size, and the gap shrinks", 
   CHECK(found.warnings.empty());
 }
 
-TEST_CASE("the curves of the fits lie nearer to the measurement, with the cause nearest", "[fast]") {
+TEST_CASE("the curves of the fits lie nearer to the measurement, with the cause nearest", "[slow]") {
   const Diagnosis found = diagnose(warm_bearings(), only(kOfBearings));
   const diagnosis::PreparedSet set(warm_bearings());
   REQUIRE(found.fitted.recalibrated.size() == set.residual_count());
@@ -106,7 +106,7 @@ TEST_CASE("the curves of the fits lie nearer to the measurement, with the cause 
   CHECK(without.fitted.with_cause.empty());
 }
 
-TEST_CASE("the same answer from one thread or two, and from runs listed in another order", "[fast]") {
+TEST_CASE("the same answer from one thread or two, and from runs listed in another order", "[slow]") {
   const std::string one = text_of(diagnose(warm_bearings(), only({"bearing_warmup", "slow_leak"}, 1)));
   CHECK(one == text_of(diagnose(warm_bearings(), only({"bearing_warmup", "slow_leak"}, 2))));
   measurements::MeasurementSet other = warm_bearings();
@@ -114,7 +114,7 @@ TEST_CASE("the same answer from one thread or two, and from runs listed in anoth
   CHECK(one == text_of(diagnose(other, only({"bearing_warmup", "slow_leak"}, 1))));
 }
 
-TEST_CASE("noise alone has no gap and no cause", "[fast]") {
+TEST_CASE("noise alone has no gap and no cause", "[slow]") {
   const Diagnosis found = diagnose(tests::add_noise(tests::make_gap_set({}, 2), 6), only(kOfBearings));
   INFO(text_of(found));
   check_sound(found);
@@ -133,7 +133,7 @@ TEST_CASE("noise alone has no gap and no cause", "[fast]") {
   }
 }
 
-TEST_CASE("three clear effects at once are named together", "[fast]") {
+TEST_CASE("three clear effects at once are named together", "[slow]") {
   const std::vector<models::ActiveEffect> three{
       tests::make_active(models::find_effect("bearing_warmup"), {0.03, 20.0, 15.0, 1.0}),
       tests::make_active(models::find_effect("load_exponent"), {1.1}),
@@ -147,7 +147,7 @@ TEST_CASE("three clear effects at once are named together", "[fast]") {
   CHECK(found.causes.front().effects.size() == 3);
 }
 
-TEST_CASE("effects that are left out have no probability", "[fast]") {
+TEST_CASE("effects that are left out have no probability", "[slow]") {
   DiagnosisOptions options = only(kOfBearings);
   options.without = {"bearing_warmup"};
   const Diagnosis found = diagnose(warm_bearings(), options);
@@ -170,7 +170,7 @@ TEST_CASE("an effect that does not exist is refused, wherever it is named", "[fa
   CHECK_THROWS_WITH(diagnose(warm_bearings(), only({"brake_heat"})), Catch::Contains("brake_heat"));  // not on a drum
 }
 
-TEST_CASE("a set that cannot be what it says has no cause", "[fast]") {
+TEST_CASE("a set that cannot be what it says has no cause", "[slow]") {
   measurements::MeasurementSet set = warm_bearings();
   for (measurements::MeasuredRun& run : set.runs) {
     for (double& torque : run.columns.at("drum_torque_Nm")) torque *= 3.6;
@@ -251,7 +251,7 @@ TEST_CASE("of a set by the independent generator the same answer from one thread
   CHECK(one == text_of(diagnose(other, options)));
 }
 
-TEST_CASE("one run that stands apart does not hide what the others show", "[fast]") {
+TEST_CASE("one run that stands apart does not hide what the others show", "[slow]") {
   auto set = tests::add_noise(
       tests::make_gap_set({tests::make_active(models::find_effect("bearing_warmup"), {0.02, 20.0, 15.0, 1.0})}, 4), 1);
   CHECK_FALSE(diagnose(set, only(kOfBearings)).without_run.has_value());

@@ -49,7 +49,7 @@ TEST_CASE("every test of a dynamometer can be simulated, and drive and brake for
   CHECK(bits.at("drive_and_brake") > bits.at("soak_with_pressure"));
 }
 
-TEST_CASE("weights on the roller's load cell tell its gain, and a scale and a counter what they are for", "[fast]") {
+TEST_CASE("weights on the roller's load cell tell its gain, and a scale and a counter what they are for", "[slow]") {
   const measurements::MeasurementSet set = tests::make_dyno_set({}, 1);
   const auto gains = judge(set, "", "torque_gain");
   // The gain may be none: what it is known to afterwards tells. No other test shows more of it an hour.

@@ -80,7 +80,7 @@ TEST_CASE("a loss force counts from 20 km/h, a temperature at every speed, both 
   CHECK(slow > 0);
 }
 
-TEST_CASE("on a dynamometer noise alone is no gap", "[fast]") {
+TEST_CASE("on a dynamometer noise alone is no gap", "[slow]") {
   const Diagnosis found = diagnosis::diagnose(tests::add_noise(make_dyno_set({}, 2), 3), only(kOfDriving));
   INFO(diagnosis::format_summary(found));
   CHECK(found.verdict == Verdict::kNoGap);
@@ -88,7 +88,7 @@ TEST_CASE("on a dynamometer noise alone is no gap", "[fast]") {
   CHECK(found.balance.empty());
 }
 
-TEST_CASE("a driveline that warms is named on a dynamometer, with its place and its equation", "[fast]") {
+TEST_CASE("a driveline that warms is named on a dynamometer, with its place and its equation", "[slow]") {
   const auto set = tests::add_noise(make_dyno_set({tests::make_effect_at("driveline_warming", 0.8)}, 3), 4);
   const Diagnosis found = diagnose(set, only(kOfDriving));
   INFO(diagnosis::format_summary(found));
@@ -104,7 +104,7 @@ TEST_CASE("a driveline that warms is named on a dynamometer, with its place and 
   CHECK(json["format"] == "rollrig-diagnosis/1");
 }
 
-TEST_CASE("slip is named where a wheel drives and brakes", "[fast]") {
+TEST_CASE("slip is named where a wheel drives and brakes", "[slow]") {
   const auto set = tests::add_noise(make_dyno_set({tests::make_effect_at("slip_loss", 0.5)}, 2), 5);
   const Diagnosis found = diagnose(set, only(kOfDriving));
   INFO(diagnosis::format_summary(found));
@@ -137,7 +137,7 @@ TEST_CASE("on a dynamometer a base parameter off by twice its uncertainty is mad
   CHECK(calc_rms_of_loss(fitted, off) < 0.15 * calc_rms_of_loss(nominal, off));
 }
 
-TEST_CASE("against a constant coefficient the tire's temperature is named on a dynamometer", "[fast]") {
+TEST_CASE("against a constant coefficient the tire's temperature is named on a dynamometer", "[slow]") {
   const auto baseline = models::Baseline::kConstantRrc;
   const auto set = tests::add_noise(make_dyno_set({tests::make_effect_at("tire_temperature", 0.5)}, 2, baseline), 8);
   const Diagnosis found = diagnose(set, only({"tire_temperature", "driveline_warming", "slip_loss"}));

@@ -63,7 +63,7 @@ double share_of_torque(const PreparedSet& set) {
 
 }  // namespace
 
-TEST_CASE("of noise alone there is no gap: as often below the noise as above it", "[fast]") {
+TEST_CASE("of noise alone there is no gap: as often below the noise as above it", "[slow]") {
   constexpr int kSets = 20;
   const auto clean = tests::make_gap_set({}, 3);
   int above = 0;
@@ -78,7 +78,7 @@ TEST_CASE("of noise alone there is no gap: as often below the noise as above it"
   CHECK_FALSE(tests::is_rejected(above, kSets, 0.5, 0.01));
 }
 
-TEST_CASE("of noise alone nothing can shrink", "[fast]") {
+TEST_CASE("of noise alone nothing can shrink", "[slow]") {
   const auto clean = tests::make_gap_set({}, 3);
   for (const std::uint64_t seed : {1UL, 2UL}) {
     const FittedBaseline fitted(tests::add_noise(clean, seed));
@@ -155,7 +155,7 @@ TEST_CASE("the true effect shrinks the gap by all of it, on runs that the fit di
 
 TEST_CASE(
     "what is left out is likelier with the true effect than with another, and no likelier with one that does not act",
-    "[fast]") {
+    "[slow]") {
   const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 4), 5));
   const auto nats_of = [](const FittedBaseline& of, const char* id) {
     const Candidate cause = fit_effect(of, id);
@@ -226,7 +226,7 @@ TEST_CASE("of a large effect that is known, next to nothing is left in the middl
   CHECK(percents[0] > 90.0);
 }
 
-TEST_CASE("a wrong effect shrinks it less", "[fast]") {
+TEST_CASE("a wrong effect shrinks it less", "[slow]") {
   const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 3), 5));
   const Candidate right = fit_effect(fitted, "bearing_warmup");
   const Candidate wrong = fit_effect(fitted, "slow_leak");
@@ -253,7 +253,7 @@ measurements::MeasurementSet make_mixed_set(const std::vector<bool>& are_warming
 TEST_CASE(
     "a cause that enlarges the gap of runs left out is not confirmed, and is not said to be worse where it may shrink "
     "it",
-    "[fast]") {
+    "[slow]") {
   const FittedBaseline by_turns(make_mixed_set({false, true, false, true}));
   const Candidate wrong = fit_effect(by_turns, "bearing_warmup");
   const Gap worse = find(by_turns, &wrong);

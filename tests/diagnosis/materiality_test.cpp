@@ -117,7 +117,7 @@ TEST_CASE("what retuned numbers hide is nothing that is read, and its energy cou
 }
 
 TEST_CASE("a cause below the smallest effect of interest is no gap, and a trace with its size and probability",
-          "[fast]") {
+          "[slow]") {
   const auto set = tests::measure_on_drum({tests::act("bearing_warmup")}, {tests::plan_skim_run()});
   diagnosis::DiagnosisOptions options = tests::only({"bearing_warmup", "slow_leak"});
   const diagnosis::Diagnosis matters = diagnosis::diagnose(set, options);

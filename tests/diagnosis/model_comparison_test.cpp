@@ -30,7 +30,7 @@ std::map<std::string, double> find_odds(const measurements::MeasurementSet& set,
 
 }  // namespace
 
-TEST_CASE("hypotheses of one effect, and of two, gain what their priors gain", "[fast]") {
+TEST_CASE("hypotheses of one effect, and of two, gain what their priors gain", "[slow]") {
   const measurements::MeasurementSet set =
       tests::measure_on_drum({tests::act("bearing_warmup"), tests::act("slow_leak", 4.0)}, {tests::plan_skim_run()});
   const auto usual = find_odds(set, {});
@@ -115,7 +115,7 @@ TEST_CASE("a pair of which both effects are clear keeps its probability", "[fast
   CHECK(pair > 0.8);
 }
 
-TEST_CASE("what came from an error of the law is a part of a hypothesis", "[fast]") {
+TEST_CASE("what came from an error of the law is a part of a hypothesis", "[slow]") {
   const tests::ComparedSet compared(
       tests::measure_on_drum({tests::act("bearing_warmup", 2.0), tests::act("slow_leak", 5.0), tests::act("rim_heat")},
                              {tests::plan_skim_run()}),

@@ -60,7 +60,7 @@ TEST_CASE("identical hypotheses leave nothing to learn, and none teaches more th
   }
 }
 
-TEST_CASE("warming bearings and a drifting zero are split by the torque at standstill", "[fast]") {
+TEST_CASE("warming bearings and a drifting zero are split by the torque at standstill", "[slow]") {
   const Study& study = bearings_or_zero().study;
   std::vector<OpenHypothesis> open = bearings_or_zero().find_open();
   REQUIRE(open.size() >= 2);
@@ -80,7 +80,7 @@ TEST_CASE("warming bearings and a drifting zero are split by the torque at stand
   CHECK(find_judged(judged, "standstill_torque").bits > 0.9);  // of one bit
 }
 
-TEST_CASE("a proposal does not depend on the number of threads", "[fast]") {
+TEST_CASE("a proposal does not depend on the number of threads", "[slow]") {
   tests::ComparedSet set = tests::compare_bearings_or_zero();
   set.study.settings.threads = 1;
   const std::vector<diagnosis::ProposedTest> one = set.propose();

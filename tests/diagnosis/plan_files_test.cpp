@@ -194,7 +194,7 @@ double find_worst_share(const measurements::MeasurementSet& set, const measureme
 
 }  // namespace
 
-TEST_CASE("plans of wheel and vehicle are run as a set whose resimulation is what was written", "[fast]") {
+TEST_CASE("plans of wheel and vehicle are run as a set whose resimulation is what was written", "[slow]") {
   const measurements::MeasurementSet sets[] = {tests::make_dyno_set({}, 1), tests::make_road_set({}, 1),
                                                tests::make_road_set({}, 1, models::Baseline::kCombined)};
   for (const measurements::MeasurementSet& set : sets) {

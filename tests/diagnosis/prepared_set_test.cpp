@@ -45,7 +45,7 @@ double longest_block_s(const PreparedSet& set) {
 }  // namespace
 
 TEST_CASE("blocks are 10 s long, and longer in a set of more than 24 h, whose number of blocks hardly grows",
-          "[fast]") {
+          "[slow]") {
   const measurements::MeasurementSet measured = tests::make_gap_set({}, 2);
   const PreparedSet day(repeat(measured, 24.0));
   CHECK(day.block_length_s() == 10.0);

@@ -23,7 +23,7 @@ diagnosis::Fit fit_from(const diagnosis::Study& study, const std::string& effect
 
 }  // namespace
 
-TEST_CASE("a fit that starts at the end of a range ends where any other does", "[fast]") {
+TEST_CASE("a fit that starts at the end of a range ends where any other does", "[slow]") {
   const auto effect = tests::make_active(models::find_effect("convection_law"), {0.4, 20.0, 1.0, 0.6});
   const auto clean = tests::make_dyno_set({effect}, 2, models::Baseline::kCombined, 40.0);
   const tests::FittedBaseline study(tests::add_noise(clean, 3));

@@ -46,7 +46,7 @@ std::string find_trips() {
 
 }  // namespace
 
-TEST_CASE("on the road noise alone is no gap", "[fast]") {
+TEST_CASE("on the road noise alone is no gap", "[slow]") {
   const Diagnosis found = diagnosis::diagnose(tests::add_noise(make_road_set({}, 4), 3), {});
   INFO(diagnosis::format_summary(found));
   CHECK(found.verdict == Verdict::kNoGap);
@@ -55,7 +55,7 @@ TEST_CASE("on the road noise alone is no gap", "[fast]") {
 }
 
 TEST_CASE("a tire that warms is named against a constant coefficient, on trips with the noise of a real road",
-          "[fast]") {
+          "[slow]") {
   const auto set = tests::add_noise(make_road_set({tests::make_effect_at("tire_temperature", 0.6)}, 6), 4);
   const Diagnosis found = diagnosis::diagnose(set, {});
   INFO(diagnosis::format_summary(found));
@@ -63,7 +63,7 @@ TEST_CASE("a tire that warms is named against a constant coefficient, on trips w
   CHECK(found.gap.held_out.size() == 6);
 }
 
-TEST_CASE("wind is named where the traction force is well known", "[fast]") {
+TEST_CASE("wind is named where the traction force is well known", "[slow]") {
   const auto wind = tests::make_effect_at("wind_and_grade", 0.8);
   const auto set = tests::add_noise(with_quiet_sensor(make_road_set({wind}, 4)), 5);
   const Diagnosis found = diagnosis::diagnose(set, only({"wind_and_grade", "tire_temperature", "driveline_warming"}));

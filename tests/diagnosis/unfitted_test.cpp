@@ -35,7 +35,7 @@ TEST_CASE("an effect that the set does not show is as likely after it as before"
   CHECK(calc_bayes_factor(failed) == 1.0);
 }
 
-TEST_CASE("the Bayes factor is the mean likelihood ratio of sizes drawn from the prior", "[fast]") {
+TEST_CASE("the Bayes factor is the mean likelihood ratio of sizes drawn from the prior", "[slow]") {
   for (const char* effect : {"bearing_warmup", "slow_leak", "speed_record"}) {
     const models::EffectParameter& size = find_term(effect).parameters().front();
     const double off_SI = size.off.value_or(0.0) * unit_of_key(size.key).factor;

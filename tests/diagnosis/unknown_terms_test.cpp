@@ -67,7 +67,7 @@ TEST_CASE("a family of unknown effects cannot be asked for by name", "[fast]") {
   }
 }
 
-TEST_CASE("gas that leaves only above a pressure is unknown, and no slow leak", "[fast]") {
+TEST_CASE("gas that leaves only above a pressure is unknown, and no slow leak", "[slow]") {
   constexpr double kPa_per_h = 1e3 / 3600.0;
   const Term& family = find_family("gas");
   models::ActiveEffect acting{&family.effect(), {6.0 * kPa_per_h, 5.0}};
@@ -85,7 +85,7 @@ TEST_CASE("a leak at a steady rate is a slow leak", "[fast]") {
   CHECK(compared.comparison.unknown_probability < 0.3);
 }
 
-TEST_CASE("a force in a band of speeds is unknown, and the band is told", "[fast]") {
+TEST_CASE("a force in a band of speeds is unknown, and the band is told", "[slow]") {
   const Term& band = find_family("band");
   models::ActiveEffect acting{&band.effect(), {3.0, 80.0 / 3.6, 8.0 / 3.6, 0.5}};
   const auto set = tests::measure_on_drum({acting}, {plan_long_steps()});
@@ -103,7 +103,7 @@ TEST_CASE("a force in a band of speeds is unknown, and the band is told", "[fast
   CHECK(high_km_h == Approx(88).margin(4));
 }
 
-TEST_CASE("a named effect is not given up for a family that can do what it does", "[fast]") {
+TEST_CASE("a named effect is not given up for a family that can do what it does", "[slow]") {
   const auto set = tests::measure_on_drum({tests::act("standing_wave", 2.0)}, {plan_long_steps()});
   const Compared compared(set, {"standing_wave", "windage", "speed_record"});
   const std::vector<Cause> causes = find_causes(compared.study, compared.comparison);

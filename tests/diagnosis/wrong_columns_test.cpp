@@ -17,7 +17,7 @@ using tests::kChannels;
 using tests::rescale;
 using tests::short_set;
 
-TEST_CASE("each pair of exchanged columns is found", "[fast]") {
+TEST_CASE("each pair of exchanged columns is found", "[slow]") {
   const std::vector<std::string> columns{"speed_km_h",     "load_N",     "ambient_degC",
                                          "drum_torque_Nm", kChannels[1], kChannels[2]};
   for (std::size_t a = 0; a < columns.size(); ++a) {
@@ -38,7 +38,7 @@ TEST_CASE("columns exchanged in one run alone are found in that run", "[fast]") 
   CHECK_THAT(answer.text, Contains("in run " + set.runs[1].id) && Contains("are exchanged"));
 }
 
-TEST_CASE("a wrong unit is named", "[fast]") {
+TEST_CASE("a wrong unit is named", "[slow]") {
   struct Case {
     const char* column;
     double factor;

@@ -153,7 +153,7 @@ TEST_CASE("commands of a page stand in blocks of sh, and each kind that is not r
   CHECK(slow_pages == kSlowPages);
 }
 
-TEST_CASE("every command of the quick pages works as printed", "[fast]") {
+TEST_CASE("every command of the quick pages works as printed", "[slow]") {
   for (const std::string& page : list_pages()) {
     if (kSlowPages.count(page) == 0) check_commands(page);
   }

@@ -154,7 +154,7 @@ void check_mistake(const Mistake& mistake, const std::string& message) {
 
 }  // namespace
 
-TEST_CASE("every message on the page of troubleshooting is what its mistake gives", "[fast]") {
+TEST_CASE("every message on the page of troubleshooting is what its mistake gives", "[slow]") {
   auto messages = read_messages();
   for (const Mistake& mistake : kMistakes) {
     auto& left = messages[mistake.section];

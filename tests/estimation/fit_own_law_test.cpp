@@ -117,7 +117,7 @@ TEST_CASE("a bounded tire is found again from wrong guesses, from several speeds
   CHECK(estimation::make_fit_json(set, fit)["two_step"].is_null());
 }
 
-TEST_CASE("with noise a bounded tire is found within its uncertainty, and noise is what is left", "[fast]") {
+TEST_CASE("with noise a bounded tire is found within its uncertainty, and noise is what is left", "[slow]") {
   constexpr int kSeeds = 6;
   double distance = 0.0;
   double degrees = 0.0;

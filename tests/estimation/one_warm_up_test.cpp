@@ -165,7 +165,7 @@ TEST_CASE("a fit that holds a wrong heat capacity is contradicted by the two-ste
   CHECK_THAT(held.warnings[0], Catch::Contains("two-step regression and the fit differ"));
 }
 
-TEST_CASE("the two-step regression does not contradict fits without a mistake", "[fast]") {
+TEST_CASE("the two-step regression does not contradict fits without a mistake", "[slow]") {
   int warnings = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     MeasurementSet set = make_two_warm_ups(seed);

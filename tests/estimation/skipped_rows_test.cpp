@@ -208,7 +208,7 @@ state = "lifted"
 
 }  // namespace
 
-TEST_CASE("each kind of bad row of a speed trace is found and named, and the other rows stay as they are", "[fast]") {
+TEST_CASE("each kind of bad row of a speed trace is found and named, and the other rows stay as they are", "[slow]") {
   RowRandom random(22);
   for (int trial = 0; trial < 30; ++trial) {
     const RowLines clean =

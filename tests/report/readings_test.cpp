@@ -58,7 +58,7 @@ TEST_CASE("the page can tell the time of every row", "[fast]") {
   for (std::size_t row = 0; row < times_s.size(); ++row) CHECK(std::abs(times_s[row] - recording.time_s[row]) <= 1e-3);
 }
 
-TEST_CASE("the page has the value of every row to five digits", "[fast]") {
+TEST_CASE("the page has the value of every row to five digits", "[slow]") {
   RandomStream random(3, "readings");
   std::vector<double> time_s;
   std::vector<double> values;

@@ -184,7 +184,7 @@ TEST_CASE("every effect keeps the contract", "[slow][contract]") {
 }
 
 TEST_CASE("both audits close on every tire model with no effect and with every one, and the fidelities agree",
-          "[fast][contract]") {
+          "[slow][contract]") {
   for (const EffectCampaign& campaign : tests::campaigns()) {
     Effects all;
     for (const Effect* effect : models::all_effects()) {

@@ -66,7 +66,7 @@ void compare(const std::string& scenario, const std::string& tire, const std::ve
 
 }  // namespace
 
-TEST_CASE("the two fidelities agree on every drum scenario", "[fast]") {
+TEST_CASE("the two fidelities agree on every drum scenario", "[slow]") {
   for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
     if (scenario->has_vehicle) continue;  // those: vehicle_fidelities_test.cpp
     if (scenario->fidelities.size() < 2) continue;

@@ -33,7 +33,7 @@ void check_city(const VehicleFixture& fixture, bool multibody) {
 
 }  // namespace
 
-TEST_CASE("on the city cycle a quarter's energy closes to 1e-5", "[fast]") {
+TEST_CASE("on the city cycle a quarter's energy closes to 1e-5", "[slow]") {
   for (const bool multibody : {false, true}) {
     check_city(VehicleFixture("dyno_1m2", false, tests::kFront), multibody);
     check_city(VehicleFixture("road", false, tests::kRear), multibody);

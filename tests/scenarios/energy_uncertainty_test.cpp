@@ -55,7 +55,7 @@ TEST_CASE("the energies of the budget are those of the result, and move as in si
   CHECK(moved[7] / 1e3 == Approx(other.result["economy"][2]["range_km"].get<double>()).epsilon(1e-9));
 }
 
-TEST_CASE("the numbers of a tire file move together by their correlation", "[fast]") {
+TEST_CASE("the numbers of a tire file move together by their correlation", "[slow]") {
   // Two numbers of the loss with correlation 0.58: the variance of the energy is c R c, and not the sum of squares.
   const std::vector<std::string> settings{"mid_min=5", "end_min=5"};
   scenarios::RunSpec spec = tests::make_spec("sae_j1634", "a50", settings, "quasi_static");

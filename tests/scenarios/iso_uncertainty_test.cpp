@@ -182,7 +182,7 @@ TEST_CASE("a tire that still warms up does not count as scatter from cycle to cy
   CHECK(scatter_N_per_kN < 0.3 * trend_N_per_kN);
 }
 
-TEST_CASE("noise from cycle to cycle comes back as its standard uncertainty, on average over seeds", "[fast]") {
+TEST_CASE("noise from cycle to cycle comes back as its standard uncertainty, on average over seeds", "[slow]") {
   double squares = 0.0;
   constexpr unsigned kSeeds = 10;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {

@@ -194,7 +194,7 @@ TEST_CASE("a battery that is empty before the end section is refused with what i
                                                            Catch::Contains("empty before the end section"));
 }
 
-TEST_CASE("a map that is even is the constant efficiency, in both fidelities", "[fast]") {
+TEST_CASE("a map that is even is the constant efficiency, in both fidelities", "[slow]") {
   for (const char* fidelity : {"quasi_static", "multibody"}) {
     INFO(fidelity);
     const auto drive = [fidelity](bool with_map) {

@@ -85,7 +85,7 @@ TEST_CASE("a speed sweep averages its measurement cycles and rises with speed", 
   CHECK(outcome.result["cycles"][1]["speed_km_h"].get<double>() == Approx(80.0));
 }
 
-TEST_CASE("sweeps report the steady state, as after a very long hold", "[fast]") {
+TEST_CASE("sweeps report the steady state, as after a very long hold", "[slow]") {
   struct Sweep {
     const char* name;
     const char* values;
@@ -110,7 +110,7 @@ TEST_CASE("sweeps report the steady state, as after a very long hold", "[fast]")
   }
 }
 
-TEST_CASE("a sweep with the source's short cycles says how far it is from steady state, and warns", "[fast]") {
+TEST_CASE("a sweep with the source's short cycles says how far it is from steady state, and warns", "[slow]") {
   for (const char* tire : {"a40", "a50", "a60"}) {
     INFO(tire);
     const auto brief = run("speed_sweep", tire, {"speeds_km_h=[40,110]", "settle_min=0"});

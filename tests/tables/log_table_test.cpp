@@ -125,7 +125,7 @@ TEST_CASE("what export writes is read with its units and gaps", "[fast]") {
   }
 }
 
-TEST_CASE("a small file that unpacks to more than a table may have is refused", "[fast]") {
+TEST_CASE("a small file that unpacks to more than a table may have is refused", "[slow]") {
   const TemporaryFolder folder;
   const std::string file = folder.file("huge.h5");
   {

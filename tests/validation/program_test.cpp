@@ -52,7 +52,7 @@ TEST_CASE("what was rollrig blind says where it is now", "[fast]") {
   CHECK(run_program("--help").out.find("blind") == std::string::npos);
 }
 
-TEST_CASE("a validation set with the names that it once had, made and scored by the old words", "[fast]") {
+TEST_CASE("a validation set with the names that it once had, made and scored by the old words", "[slow]") {
   const ValidationSetFolder made;
   fs::rename(made.root + "/truth.sha256", made.root + "/seal.sha256");
   REQUIRE(run_validation("run set --quiet", made.folder.path()).status == 0);
@@ -68,7 +68,7 @@ TEST_CASE("a validation set with the names that it once had, made and scored by 
   CHECK(count_files(made.folder.file("new/sets")) == 1);
 }
 
-TEST_CASE("run and score tell how a validation set went, resume, and keep to 80 columns", "[fast]") {
+TEST_CASE("run and score tell how a validation set went, resume, and keep to 80 columns", "[slow]") {
   const ValidationSetFolder made;
   const auto first = run_validation("run set", made.folder.path());
   INFO(first.err);
@@ -104,7 +104,7 @@ TEST_CASE("a score under another hash is refused and writes nothing", "[fast]") 
   CHECK_FALSE(fs::exists(made.folder.file("score.json")));
 }
 
-TEST_CASE("a validation set whose making is interrupted leaves nothing behind", "[fast]") {
+TEST_CASE("a validation set whose making is interrupted leaves nothing behind", "[slow]") {
   const TemporaryFolder folder;
   const auto stopped = run_validation("make --seed 9 --out set --kind drum --singles 200", folder.path(),
                                       "timeout --foreground -s INT --preserve-status 1");
@@ -150,7 +150,7 @@ TEST_CASE("processes without MPI answer the cases of their part", "[fast]") {
   CHECK(run_validation("run set --shard 3/2", made.folder.path()).status == 2);
 }
 
-TEST_CASE("a seed is a whole number that is not negative", "[fast]") {
+TEST_CASE("a seed is a whole number that is not negative", "[slow]") {
   const ValidationSetFolder made;
   for (const char* seed : {"-1", "1.5", "18446744073709551616", "1e3", "''"}) {
     for (const char* words :
@@ -180,7 +180,7 @@ TEST_CASE("commands that do not share their work refuse to start as several proc
 }
 
 #ifdef ROLLRIG_MPIEXEC
-TEST_CASE("under mpirun the processes share the sets, and one of them prints", "[fast]") {
+TEST_CASE("under mpirun the processes share the sets, and one of them prints", "[slow]") {
   const ValidationSetFolder made;
   const std::string mpirun =  // Open MPI does not free all that it allocates
       "ASAN_OPTIONS=detect_leaks=0 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " ROLLRIG_MPIEXEC

@@ -94,7 +94,7 @@ Answer judge_guess(const measurements::MeasurementSet& set, const LoggerStyle& s
 
 }  // namespace
 
-TEST_CASE("logs of sixty laboratories: what is guessed is right, and the rest is asked for", "[fast]") {
+TEST_CASE("logs of sixty laboratories: what is guessed is right, and the rest is asked for", "[slow]") {
   const measurements::MeasurementSet set = measurements::read_measurement_set(kExample);
   constexpr int kFolders = 60;
   int right = 0, asked = 0, stated = 0, stated_right = 0;

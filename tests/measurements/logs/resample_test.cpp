@@ -145,7 +145,7 @@ TEST_CASE("the noise of a mean over samples is the smaller, but for what roundin
   CHECK(measurements::average_sensor(coarse, 1000.0).noise_sd == Approx(1.0 / std::sqrt(12.0)));
 }
 
-TEST_CASE("a log in which every second value is missing takes no longer for each row when it is long", "[fast]") {
+TEST_CASE("a log in which every second value is missing takes no longer for each row when it is long", "[slow]") {
   constexpr std::size_t kRows = 300000;
   Log log = make_log("torque_log", 0.0, 1.0, kRows);
   for (std::size_t i = 0; i < kRows; ++i) {

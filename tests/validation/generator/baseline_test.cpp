@@ -34,11 +34,11 @@ void check_kind(const std::string& options, int seeds) {
 
 }  // namespace
 
-TEST_CASE("without effect and noise a drum set is within 0.2 noise floors of the baseline", "[fast]") {
+TEST_CASE("without effect and noise a drum set is within 0.2 noise floors of the baseline", "[slow]") {
   check_kind("--kind drum", 12);
 }
 
-TEST_CASE("without effect and noise a flat-belt set is within 0.2 noise floors of the baseline", "[fast]") {
+TEST_CASE("without effect and noise a flat-belt set is within 0.2 noise floors of the baseline", "[slow]") {
   check_kind("--kind flat_belt", 6);
 }
 

@@ -11,7 +11,7 @@
 using namespace rollrig;
 using namespace rollrig::tests;
 
-TEST_CASE("dyno campaigns: three to five runs of one to two hours, cycles and constant speeds, rests", "[fast]") {
+TEST_CASE("dyno campaigns: three to five runs of one to two hours, cycles and constant speeds, rests", "[slow]") {
   std::set<std::string> kinds;
   bool rests = false;
   bool brakes = false;
@@ -86,7 +86,7 @@ TEST_CASE("campaigns on drum and belt have six runs in sessions, skims, fast run
   check_tire_campaigns("flat_belt", 2);
 }
 
-TEST_CASE("road trips: cold and warm starts, hills, traction empty where friction brakes act", "[fast]") {
+TEST_CASE("road trips: cold and warm starts, hills, traction empty where friction brakes act", "[slow]") {
   bool warm = false;
   std::set<models::Baseline> baselines;
   double coldest_K = 400.0;

@@ -46,7 +46,7 @@ TEST_CASE("2 % more inertia takes 2 % more force, late, and nothing at a constan
   }
 }
 
-TEST_CASE("slip under 1 kN costs its square over C, and more near the limit of friction", "[fast]") {
+TEST_CASE("slip under 1 kN costs its square over C, and more near the limit of friction", "[slow]") {
   const std::string kind = with_form("dyno", GENERATE("brush", "tanh"));
   for (int seed = 41; seed < 44; ++seed) {
     const GeneratedSet made = make_effect_set(kind, "slip_loss", "100", seed);

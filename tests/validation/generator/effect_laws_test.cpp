@@ -49,7 +49,7 @@ TEST_CASE("friction under load is the size at 5.4 kN and rises no slower than th
   }
 }
 
-TEST_CASE("a leak of 1.5 kPa/h falls by that in an hour at the reference pressure", "[fast]") {
+TEST_CASE("a leak of 1.5 kPa/h falls by that in an hour at the reference pressure", "[slow]") {
   for (int seed = 31; seed < 37; ++seed) {
     const bool through_rubber = seed % 2 == 0;
     const GeneratedSet made =

@@ -202,7 +202,7 @@ TEST_CASE("each effect of the catalog has two forms, and seeds draw both about a
   CHECK(std::abs(first - 0.5 * all) < 2.0 * std::sqrt(all));  // four standard deviations
 }
 
-TEST_CASE("where its size is said to hold, an effect is the same in both forms", "[fast]") {
+TEST_CASE("where its size is said to hold, an effect is the same in both forms", "[slow]") {
   constexpr int kSeed = 22;  // its campaign runs at the reference load
   const auto forms = list_forms();
   for (const Reference& at : kReferences) {

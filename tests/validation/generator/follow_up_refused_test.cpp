@@ -19,7 +19,7 @@ void check_refused(const PlannedCase& made, const std::vector<std::string>& word
 
 }  // namespace
 
-TEST_CASE("wrong plans are refused, with what is wrong and what is allowed", "[fast]") {
+TEST_CASE("wrong plans are refused, with what is wrong and what is allowed", "[slow]") {
   const std::string order = "--effect none --seed 12 --runs 1";
   const PlannedCase empty(order);
   check_refused(empty, {"no plans in", "followup/plans", "first: rollrig_validation plan"});

@@ -25,7 +25,7 @@ double mean(const std::vector<double>& values, std::size_t from, std::size_t to)
 
 }  // namespace
 
-TEST_CASE("a followed-up set repeats its own runs byte for byte and adds those of the plan", "[fast]") {
+TEST_CASE("a followed-up set repeats its own runs byte for byte and adds those of the plan", "[slow]") {
   const std::string road = "time_s,speed_km_h,elevation_m,ambient_degC\n0,80,0,10\n300,80,0,10\n";
   const std::string dyno =
       "time_s,speed_km_h,load_N,longitudinal_force_N,ambient_degC\n0,80,5000,150,24\n300,80,5000,150,24\n";

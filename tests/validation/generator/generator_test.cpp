@@ -168,7 +168,7 @@ TEST_CASE("no file of a set names an effect, a seed or a true value", "[fast]") 
   }
 }
 
-TEST_CASE("a validation set is shuffled, numbered, repeatable, and its truth has the hash that was printed", "[fast]") {
+TEST_CASE("a validation set is shuffled, numbered, repeatable, and its truth has the hash that was printed", "[slow]") {
   const TemporaryFolder folder;
   const std::string arguments =
       "make --kind drum --seed 9 --singles 0 --each 3 --none 6 --pairs 2 --outside 0 --effects slow_leak,load_exponent "
@@ -238,7 +238,7 @@ TEST_CASE("a mixed validation set has every effect of the catalog, each size cla
   }
 }
 
-TEST_CASE("cases of three effects are drawn beside the others, which stay as they are", "[fast]") {
+TEST_CASE("cases of three effects are drawn beside the others, which stay as they are", "[slow]") {
   const TemporaryFolder folder;
   const std::string rest =
       "--seed 33 --singles 2 --pairs 1 --none 1 --outside 1 --runs 1 "

@@ -56,7 +56,7 @@ double calc_run_mean_variance(const models::SensorParameters& sensor, double n) 
 
 }  // namespace
 
-TEST_CASE("errors of sensors are white and of unit variance once whitened by the format's noise model", "[fast]") {
+TEST_CASE("errors of sensors are white and of unit variance once whitened by the format's noise model", "[slow]") {
   for (const std::string& channel : kChannels) {
     double squares = 0.0;
     double neighbors = 0.0;
@@ -82,7 +82,7 @@ TEST_CASE("errors of sensors are white and of unit variance once whitened by the
   }
 }
 
-TEST_CASE("offsets are shared by a session, differ between sessions, and have the stated size", "[fast]") {
+TEST_CASE("offsets are shared by a session, differ between sessions, and have the stated size", "[slow]") {
   for (const std::string& channel : kChannels) {
     double within = 0.0;
     double offsets = 0.0;

@@ -52,7 +52,7 @@ bool has_twin(const Json& set, const std::string& id) {
 
 }  // namespace
 
-TEST_CASE("d' grows in proportion to a small size", "[fast]") {
+TEST_CASE("d' grows in proportion to a small size", "[slow]") {
   const std::string drum = "--kind drum --runs 2 --seed 4 --effect ";
   const Json sets = find_upper_bound(
       {drum + "torque_zero_drift --form amplifier --size 0.2", drum + "torque_zero_drift --form amplifier --size 0.4",
@@ -64,7 +64,7 @@ TEST_CASE("d' grows in proportion to a small size", "[fast]") {
   CHECK(d_prime("0004") == Approx(2.0 * d_prime("0003")).epsilon(0.05));
 }
 
-TEST_CASE("an effect is compared with all others, a pair also with its members, one from outside with none", "[fast]") {
+TEST_CASE("an effect is compared with all others, a pair also with its members, one from outside with none", "[slow]") {
   const std::string drum = "--kind drum --runs 2 --seed 4 --effect ";
   const Json sets = find_upper_bound(
       {drum + "rim_heat", drum + "none", drum + "rim_heat,torque_zero_drift", drum + "heater_radiation"});
@@ -82,7 +82,7 @@ TEST_CASE("an effect is compared with all others, a pair also with its members, 
 }
 
 TEST_CASE("under one load straps, load record and curvature scale the loss alike, and a clock that is late does not",
-          "[fast]") {
+          "[slow]") {
   const std::string dyno = "--kind dyno --runs 1 --seed 4 --effect ";
   const Json sets = find_upper_bound(
       {dyno + "tie_down_load --form relaxing --size 600", dyno + "curvature_exponent --form power --size 3"});
@@ -107,7 +107,7 @@ TEST_CASE("the upper bound does not depend on threads, nor a case's on the other
   CHECK(one.at("0002") == all.at("0002"));
 }
 
-TEST_CASE("what is detected can be asked for alone, and what can be told apart of some cases after it", "[fast]") {
+TEST_CASE("what is detected can be asked for alone, and what can be told apart of some cases after it", "[slow]") {
   const TemporaryFolder folder;
   const std::string root = folder.file("set");
   make_set(root,

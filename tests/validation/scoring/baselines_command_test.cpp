@@ -8,7 +8,7 @@ namespace fs = std::filesystem;
 using Catch::Contains;
 using namespace rollrig::tests;
 
-TEST_CASE("baselines answers by each method, blind to the truth, and goes on from what is there", "[fast]") {
+TEST_CASE("baselines answers by each method, blind to the truth, and goes on from what is there", "[slow]") {
   const ValidationSetFolder made;
   fs::remove(made.truth);
   const auto first = run_validation("baselines set --methods bic,gp", made.folder.path());
@@ -28,7 +28,7 @@ TEST_CASE("a method, an effect or a validation set that there is not ends with s
   CHECK_FALSE(fs::exists(made.root + "/answers-nearest"));
 }
 
-TEST_CASE("a score fills the column of the best baseline where folders of baselines are there", "[fast]") {
+TEST_CASE("a score fills the column of the best baseline where folders of baselines are there", "[slow]") {
   const ValidationSetFolder made;
   REQUIRE(run_validation("run set --quiet", made.folder.path()).status == 0);
   REQUIRE(run_validation("baselines set --quiet --methods aic,sparse", made.folder.path()).status == 0);

@@ -31,7 +31,7 @@ measurements::MeasurementSet make_leaking() {
 
 }  // namespace
 
-TEST_CASE("a slow leak is named with its size, and shrinks the gap on the runs left out", "[fast]") {
+TEST_CASE("a slow leak is named with its size, and shrinks the gap on the runs left out", "[slow]") {
   const measurements::MeasurementSet set = make_leaking();
   const models::EffectParameter& size = models::find_effect("slow_leak").info.parameters.front();
   const double true_size = size.prior.high;

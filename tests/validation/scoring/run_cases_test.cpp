@@ -32,7 +32,7 @@ TEST_CASE("each set has an answer, and a set that cannot be diagnosed an answer 
   CHECK(answer.set_sha256 == validation::hash_case(made.root + "/sets/0002"));
 }
 
-TEST_CASE("what is answered is kept, unless the case, the comparison or the file is another", "[fast]") {
+TEST_CASE("what is answered is kept, unless the case, the comparison or the file is another", "[slow]") {
   const ValidationSetFolder made;
   validation::run_cases(make_run_order(made));
   const std::string first = read_file(made.answer("0001"));
