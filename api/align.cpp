@@ -6,10 +6,9 @@
 #include <memory>
 #include <utility>
 
-#include "api/uncertainty_part.h"
+#include "api/add_uncertainty.h"
 #include "estimation/alignment/alignment.h"
 #include "estimation/alignment/alignment_uncertainty.h"
-#include "estimation/uncertainty/uncertainty.h"
 #include "report/alignment_page.h"
 #include "sim/core/columns.h"
 #include "sim/core/error.h"
@@ -103,7 +102,7 @@ std::vector<report::ReportFile> list_alignment_inputs(const estimation::Alignmen
 }  // namespace
 
 Alignment align(const AlignmentInput& input, const UncertaintyOptions& uncertainty, const Progress& progress) {
-  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
+  check_uncertainty(uncertainty);
   const auto file = std::make_shared<const estimation::AlignmentFile>(estimation::read_alignment_file(input));
   const auto result = std::make_shared<const estimation::AlignmentResult>(estimation::align_machine(*file, input));
   Alignment alignment;
@@ -111,7 +110,7 @@ Alignment align(const AlignmentInput& input, const UncertaintyOptions& uncertain
   alignment.text = fmt::format("align   {}   classes {}\n", file->path, file->rules.classes) +
                    format_tables(report::make_alignment_tables(*file, *result));
   Json json = estimation::make_alignment_json(*file, *result);
-  if (wants_uncertainty(uncertainty, true)) {
+  if (wants_uncertainty(uncertainty)) {
     alignment.text += add_uncertainty(estimation::make_alignment_model(*result), uncertainty, progress, json);
   }
   alignment.text += format_warnings(result->warnings);
@@ -130,7 +129,7 @@ Alignment align(const AlignmentInput& input, const UncertaintyOptions& uncertain
 
 AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOptions& uncertainty,
                              const Progress& progress) {
-  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
+  check_uncertainty(uncertainty);
   check_value_input(input);
   const estimation::StoredAlignment stored = estimation::read_alignment_json(input.alignment);
   const estimation::UncertainValue aligned =
@@ -141,7 +140,7 @@ AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOp
   value.text = fmt::format("align   {}\n", input.alignment) +
                format_tables(report::make_aligned_value_tables(input.rrc_N_per_kN, input.measurements, aligned));
   Json json = make_value_json(input, stored, aligned, value.warnings);
-  if (wants_uncertainty(uncertainty, true)) {
+  if (wants_uncertainty(uncertainty)) {
     const estimation::MeasurementModel model =
         estimation::make_aligned_value_model(stored.line, input.rrc_N_per_kN, input.measurements);
     value.text += add_uncertainty(model, uncertainty, progress, json);

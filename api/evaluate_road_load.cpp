@@ -5,14 +5,13 @@
 #include <memory>
 #include <utility>
 
+#include "api/add_uncertainty.h"
 #include "api/report_files.h"
-#include "api/uncertainty_part.h"
 #include "estimation/road_load/checked_road_load.h"
 #include "estimation/road_load/default_road_load.h"
 #include "estimation/road_load/procedure_uncertainty.h"
 #include "estimation/road_load/road_load_procedure.h"
 #include "estimation/road_load/road_load_report.h"
-#include "estimation/uncertainty/uncertainty.h"
 #include "report/blocks.h"
 #include "report/road_load_procedure_page.h"
 #include "rollrig/road_load.h"
@@ -104,7 +103,7 @@ RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedure
 RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOptions& options,
                             const std::vector<std::string>& sessions, BadRows bad_rows,
                             const UncertaintyOptions& uncertainty, const Progress& progress) {
-  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
+  check_uncertainty(uncertainty);
   const ReadRecorder recorder;
   const auto procedure = std::make_shared<RoadLoadProcedure>();
   try {
@@ -123,7 +122,7 @@ RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOpti
   result.text = wrap(fmt::format("fit road-load   {}   {}", source, report::title_of(procedure->kind)), 0) +
                 format_tables(report::make_procedure_tables(*procedure)) + format_warnings(procedure->warnings);
   Json json = report::make_procedure_json(*procedure);
-  if (wants_uncertainty(uncertainty, true)) {
+  if (wants_uncertainty(uncertainty)) {
     result.text += add_uncertainty(estimation::make_procedure_model(*procedure), uncertainty, progress, json);
   }
   result.json = to_text(json);

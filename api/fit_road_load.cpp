@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "api/add_uncertainty.h"
 #include "api/report_files.h"
-#include "api/uncertainty_part.h"
 #include "estimation/road_load/checked_road_load.h"
 #include "estimation/road_load/road_load_report.h"
 #include "estimation/road_load/road_load_uncertainty.h"
-#include "estimation/uncertainty/uncertainty.h"
 #include "report/fit_pages.h"
 #include "rollrig/fit.h"
 #include "sim/core/file_io.h"
@@ -106,7 +105,7 @@ std::string find_coastdown_role(const std::string& path) {
 RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
                        const std::vector<std::string>& sessions, BadRows bad_rows,
                        const UncertaintyOptions& uncertainty, const Progress& progress) {
-  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
+  check_uncertainty(uncertainty);
   const ReadRecorder recorder;
   const auto file = std::make_shared<CoastdownFile>(estimation::read_coastdowns(path, bad_rows));
   const RoadLoadFitOptions options = complete_options(*file, given);
@@ -123,7 +122,7 @@ RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
   result.warnings = fit->warnings;
   result.text = format_road_load(path, *file, options, *fit, checks);
   Json json = estimation::make_road_load_json(*file, options, *fit, checks);
-  if (wants_uncertainty(uncertainty, true)) {
+  if (wants_uncertainty(uncertainty)) {
     result.text +=
         add_uncertainty(estimation::make_road_load_model(file->data, options, *fit), uncertainty, progress, json);
   }

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "api/add_uncertainty.h"
 #include "api/report_files.h"
-#include "api/uncertainty_part.h"
 #include "estimation/rolling_law/rolling_output.h"
 #include "estimation/rolling_law/rolling_uncertainty.h"
-#include "estimation/uncertainty/uncertainty.h"
 #include "exports/coefficients.h"
 #include "report/rolling_law_page.h"
 #include "rollrig/rolling_law.h"
@@ -117,19 +116,11 @@ RollingLaw make_law(const char* command, const RollingTest& test, const Fit& fit
   return law;
 }
 
-/// Adds what is asked of the uncertainty to the JSON, and returns its tables.
-template <class MakeModel>
-std::string add_law_uncertainty(const UncertaintyOptions& options, const estimation::RegressionStatistics& statistics,
-                                const MakeModel& make_model, const Progress& progress, Json& json) {
-  return wants_uncertainty(options, statistics.freedom > 0) ? add_uncertainty(make_model(), options, progress, json)
-                                                            : "";
-}
-
 }  // namespace
 
 RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options, const UncertaintyOptions& uncertainty,
                      const Progress& progress) {
-  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
+  check_uncertainty(uncertainty);
   const ReadRecorder recorder;
   RollingTest test = read_points(path, options);
   const estimation::J2452Fit fit = fit_points(test, &estimation::fit_j2452);
@@ -139,10 +130,10 @@ RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options, 
     reference = estimation::evaluate_reference(fit, *at, read_cycles(options));
   }
   Json json = estimation::make_j2452_json(test, fit, reference);
-  const std::string tables = format_tables(report::make_j2452_tables(fit, reference)) +
-                             add_law_uncertainty(
-                                 uncertainty, fit.statistics,
-                                 [&] { return estimation::make_j2452_model(test, fit, reference); }, progress, json);
+  std::string tables = format_tables(report::make_j2452_tables(fit, reference));
+  if (wants_uncertainty(uncertainty, fit.statistics.freedom > 0)) {
+    tables += add_uncertainty(estimation::make_j2452_model(test, fit, reference), uncertainty, progress, json);
+  }
   RollingLaw law = make_law("fit j2452", test, fit, tables, json, recorder);
   law.make_page = [test, fit, reference] { return report::make_html(report::make_j2452_page(test, fit, reference)); };
   return law;
@@ -150,7 +141,7 @@ RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options, 
 
 RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options, bool proportional,
                      const UncertaintyOptions& uncertainty, const Progress& progress) {
-  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
+  check_uncertainty(uncertainty);
   const auto form = proportional ? estimation::MultipointForm::kProportional : estimation::MultipointForm::kBilinear;
   const ReadRecorder recorder;
   RollingTest test = read_points(path, options);
@@ -162,11 +153,10 @@ RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options, 
     reference = {{at->load_N, at->pressure_Pa, fit.speed_m_s}, fit.estimate_force(at->load_N, at->pressure_Pa)};
   }
   Json json = estimation::make_multipoint_json(test, fit, reference);
-  const std::string tables =
-      format_tables(report::make_multipoint_tables(fit, reference)) +
-      add_law_uncertainty(
-          uncertainty, fit.statistics, [&] { return estimation::make_multipoint_model(test, fit, reference); },
-          progress, json);
+  std::string tables = format_tables(report::make_multipoint_tables(fit, reference));
+  if (wants_uncertainty(uncertainty, fit.statistics.freedom > 0)) {
+    tables += add_uncertainty(estimation::make_multipoint_model(test, fit, reference), uncertainty, progress, json);
+  }
   RollingLaw law = make_law("fit j1269", test, fit, tables, json, recorder);
   law.make_page = [test, fit, reference] {
     return report::make_html(report::make_multipoint_page(test, fit, reference));

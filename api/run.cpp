@@ -4,10 +4,9 @@
 
 #include <filesystem>
 
+#include "api/add_uncertainty.h"
 #include "api/data.h"
 #include "api/report_files.h"
-#include "api/uncertainty_part.h"
-#include "estimation/uncertainty/uncertainty.h"
 #include "report/page.h"
 #include "report/run_page.h"
 #include "report/run_reports.h"
@@ -128,7 +127,7 @@ void Run::check(const UncertaintyOptions& uncertainty) const {
                       "command line", 0, uncertainty.monte_carlo_trials != 0 ? "--monte-carlo" : "--uncertainty", "",
                       fmt::format("a scenario with one: {}", fmt::join(list_scenarios_with_uncertainty(), ", ")), ""});
   }
-  estimation::check_trials(uncertainty.monte_carlo_trials, "--monte-carlo");
+  check_uncertainty(uncertainty);
 }
 
 RunResult Run::carry_out(const Progress& progress, const UncertaintyOptions& uncertainty) const {

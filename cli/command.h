@@ -81,11 +81,16 @@ inline void add_threads(CLI::App& command, int& threads,
 /// the same.
 void require_one_process(const std::string& command, const std::string& instead = "", bool quiet = false);
 
-/// --uncertainty, --monte-carlo and --threads.
-inline void add_uncertainty_options(CLI::App& command, UncertaintyOptions& options) {
+/// --uncertainty, --monte-carlo, --threads and, where the command has no seed of another meaning, --seed.
+inline void add_uncertainty_options(CLI::App& command, UncertaintyOptions& options, bool with_seed = false) {
   command.add_flag("--uncertainty", options.budget, "Uncertainty budget of the results (GUM)");
   command.add_option("--monte-carlo", options.monte_carlo_trials,
                      "Number of trials of the Monte Carlo method beside the budget (GUM Supplement 1) [none]");
+  if (with_seed) {
+    constexpr std::int64_t kMostSeed = 2147483647;  // as that of a run
+    command.add_option("--seed", options.seed, "Seed of the Monte Carlo trials [1]")
+        ->check(in_range(std::int64_t{0}, kMostSeed));
+  }
   add_threads(command, options.threads);
 }
 

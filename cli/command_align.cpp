@@ -5,7 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/output_files.h"
-#include "cli/progress.h"
+#include "cli/uncertain_result.h"
 #include "rollrig/align.h"
 
 namespace rollrig::cli {
@@ -22,23 +22,14 @@ struct AlignOptions {
   UncertaintyOptions uncertainty;
 };
 
-/// The result, with progress where its uncertainty takes long.
-template <class Make>
-auto make_with_progress(const AlignOptions& options, const Make& make) {
-  UncertaintyOptions uncertainty = options.uncertainty;
-  uncertainty.budget_if_any = !options.output.report.empty();
-  ProgressLine progress("align", options.output.quiet);
-  return make(uncertainty, progress.callback());
-}
-
 int align_command(const AlignOptions& options) {
   AlignmentInput input = options.input;
   if (!options.reference.empty()) input.reference = std::pair(options.reference[0], options.reference[1]);
   Output output(options.output);
-  const Alignment alignment =
-      make_with_progress(options, [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
-        return align(input, uncertainty, progress);
-      });
+  const Alignment alignment = make_uncertain("align", options.output, options.uncertainty,
+                                             [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
+                                               return align(input, uncertainty, progress);
+                                             });
   output.show(alignment);
   return alignment.is_valid ? kDone : kDiffers;
 }
@@ -60,9 +51,10 @@ int apply_command(const AlignOptions& options) {
   Output output(options.output);
   AlignedValueInput value = options.value;
   value.on = fit.on;
-  output.show(make_with_progress(options, [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
-    return apply_alignment(value, uncertainty, progress);
-  }));
+  output.show(make_uncertain("align", options.output, options.uncertainty,
+                             [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
+                               return apply_alignment(value, uncertainty, progress);
+                             }));
   return kDone;
 }
 
@@ -106,8 +98,7 @@ void add_align_command(CLI::App& app, Action& action) {
   options->output.add_to(*command, "File for the alignment, - for standard output",
                          "Folder for alignment.json, measurements.csv");
   options->output.add_report_to(*command);
-  add_uncertainty_options(*command, options->uncertainty);
-  command->add_option("--seed", options->uncertainty.seed, "Seed of the Monte Carlo trials [1]");
+  add_uncertainty_options(*command, options->uncertainty, true);
 }
 
 }  // namespace rollrig::cli

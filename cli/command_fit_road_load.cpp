@@ -10,7 +10,7 @@
 
 #include "cli/command.h"
 #include "cli/output_files.h"
-#include "cli/progress.h"
+#include "cli/uncertain_result.h"
 #include "rollrig/fit.h"
 #include "rollrig/road_load.h"
 #include "sim/core/text.h"
@@ -236,9 +236,7 @@ RoadLoadProcedureOptions make_procedure_options(const FitRoadLoadOptions& option
 int fit_road_load_command(const FitRoadLoadOptions& options) {
   const NamedProcedure* procedure = find_procedure(options.method);
   require_options_of(procedure != nullptr, options);
-  UncertaintyOptions uncertainty = options.uncertainty;
-  uncertainty.budget_if_any = !options.output.report.empty();
-  const auto fit = [&](const Progress& progress) {
+  const auto fit = [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
     if (procedure == nullptr) {
       return fit_road_load(options.csv, make_fit_options(options), options.sessions, options.bad_rows, uncertainty,
                            progress);
@@ -247,11 +245,7 @@ int fit_road_load_command(const FitRoadLoadOptions& options) {
                               options.bad_rows, uncertainty, progress);
   };
   Output output(options.output);
-  const RoadLoad load = [&] {
-    ProgressLine line("fit road-load", options.output.quiet);
-    return fit(line.callback());
-  }();
-  output.show(load);
+  output.show(make_uncertain("fit road-load", options.output, options.uncertainty, fit));
   return kDone;
 }
 
@@ -338,8 +332,7 @@ void add_fit_road_load(CLI::App& fit, Action& action) {
   options->output.add_to(*command, "File for road_load.json, - for standard output",
                          "Folder for road_load.json and residuals.csv (points.csv)");
   options->output.add_report_to(*command);
-  add_uncertainty_options(*command, options->uncertainty);
-  command->add_option("--seed", options->uncertainty.seed, "Seed of the Monte Carlo trials [1]");
+  add_uncertainty_options(*command, options->uncertainty, true);
   add_skip_bad_rows(*command, options->bad_rows);
 }
 

@@ -1,6 +1,6 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
-#include "cli/progress.h"
+#include "cli/uncertain_result.h"
 #include "rollrig/rolling_law.h"
 
 namespace rollrig::cli {
@@ -21,30 +21,24 @@ struct FitRollingLawOptions {
   }
 };
 
-/// `fit` makes the law from what is asked of its uncertainty.
-template <class Fit>
-int show_law(const char* label, const FitRollingLawOptions& options, const Fit& fit) {
-  UncertaintyOptions uncertainty = options.uncertainty;
-  uncertainty.budget_if_any = !options.output.report.empty();
+int fit_j2452_command(const FitRollingLawOptions& options) {
   Output output(options.output);
-  const RollingLaw law = [&] {
-    ProgressLine progress(label, options.output.quiet);
-    return fit(uncertainty, progress.callback());
-  }();
-  output.show(law);
+  output.show(make_uncertain("fit j2452", options.output, options.uncertainty,
+                             [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
+                               return fit_j2452(options.source, options.make_options(), uncertainty, progress);
+                             }));
   return kDone;
 }
 
-int fit_j2452_command(const FitRollingLawOptions& options) {
-  return show_law("fit j2452", options, [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
-    return fit_j2452(options.source, options.make_options(), uncertainty, progress);
-  });
-}
-
 int fit_j1269_command(const FitRollingLawOptions& options) {
-  return show_law("fit j1269", options, [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
-    return fit_j1269(options.source, options.make_options(), options.form == "proportional", uncertainty, progress);
-  });
+  Output output(options.output);
+  const bool proportional = options.form == "proportional";
+  output.show(make_uncertain("fit j1269", options.output, options.uncertainty,
+                             [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
+                               return fit_j1269(options.source, options.make_options(), proportional, uncertainty,
+                                                progress);
+                             }));
+  return kDone;
 }
 
 void add_rolling_law_options(CLI::App& command, FitRollingLawOptions& options) {
@@ -65,8 +59,7 @@ void add_rolling_law_options(CLI::App& command, FitRollingLawOptions& options) {
                    "Of a result: take the pressure in the warm tire, not the one that was set cold");
   options.output.add_to(command, "File for fit.json, - for standard output", "Folder for fit.json and residuals.csv");
   options.output.add_report_to(command);
-  add_uncertainty_options(command, options.uncertainty);
-  command.add_option("--seed", options.uncertainty.seed, "Seed of the Monte Carlo trials [1]");
+  add_uncertainty_options(command, options.uncertainty, true);
 }
 
 }  // namespace

@@ -79,8 +79,8 @@ TestReport make_procedure_report(const RoadLoadProcedure& procedure, const std::
   TestReport report;
   report.title = "Test report: road load, " + title_of(procedure.kind);
   report.standard =
-      "The texts could be read in part (docs/road_load_procedures.md). The fields are those that the road load needs "
-      "to be judged and repeated; none of the texts read has a form.";
+      "rollrig knows parts of the standards alone (docs/road_load_procedures.md), and these parts have no form. The "
+      "fields are those that a reader needs to judge and repeat the test.";
   report.subject = fmt::format("{}, {}", source, format_count(procedure.run_names.size(), "run"));
   report.warnings = procedure.warnings;
   ReportSection results{"Results", {make_procedure_results(values)}};

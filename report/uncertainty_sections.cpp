@@ -12,16 +12,21 @@ ReportCell or_infinite(const ReportValues& values, const std::string& place, con
   return values.has(place) ? values.number(place, digits) : ReportCell{"inf"};
 }
 
+/// What several inputs on one line do not have in common.
+ReportCell or_dash(const ReportValues& values, const std::string& place, const char* digits) {
+  return values.has(place) ? values.number(place, digits) : ReportCell{"-"};
+}
+
 std::vector<ReportCell> make_contribution_row(const ReportValues& values, const std::string& line) {
   ReportCell name = values.number(line + "/name");
   if (values.json().at(Json::json_pointer(line))["assumed"].get<bool>()) name.text += " *";
   return {name,
-          values.number(line + "/value", ".5g"),
-          values.number(line + "/standard_uncertainty", ".3g"),
+          or_dash(values, line + "/value", ".5g"),
+          or_dash(values, line + "/standard_uncertainty", ".3g"),
           values.number(line + "/unit"),
           {values.number(line + "/type").text + ", " + values.number(line + "/distribution").text},
           or_infinite(values, line + "/degrees_of_freedom", ".3g"),
-          values.number(line + "/sensitivity", ".3g"),
+          or_dash(values, line + "/sensitivity", ".3g"),
           values.number(line + "/contribution", ".3g"),
           values.number(line + "/share_percent", ".1f")};
 }
@@ -30,7 +35,7 @@ ReportTable make_budget_report(const ReportValues& values, const std::string& bu
   const Json& json = values.json().at(Json::json_pointer(budget));
   const std::string unit = json["unit"].get<std::string>();
   ReportTable table;
-  table.title = fmt::format("{}, {}", json["name"].get<std::string>(), unit);
+  table.title = json["name"].get<std::string>() + (unit.empty() ? "" : ", " + unit);
   table.columns = {"input", "value", "u(x)", "", "type", "dof", "c", "c u(x)", "share, %"};
   for (std::size_t i = 0; i < json["contributions"].size(); ++i) {
     table.rows.push_back(make_contribution_row(values, fmt::format("{}/contributions/{}", budget, i)));
@@ -80,7 +85,7 @@ ReportSection make_monte_carlo_section(const ReportValues& values) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::string own = fmt::format("{}/results/{}", place, i);
     table.rows.push_back({values.number(own + "/name"), values.number(own + "/unit"),
-                          values.number(own + "/mean", ".6g"), values.number(own + "/standard_deviation", ".3g"),
+                          or_dash(values, own + "/mean", ".6g"), or_dash(values, own + "/standard_deviation", ".3g"),
                           values.number(own + "/low_95", ".6g"), values.number(own + "/high_95", ".6g"),
                           values.number(own + "/gum_low_95", ".6g"), values.number(own + "/gum_high_95", ".6g"),
                           values.number(own + "/gum")});
@@ -108,12 +113,17 @@ std::vector<ReportSection> make_uncertainty_sections(const ReportValues& values)
     budgets.parts.push_back(make_budget_report(values, fmt::format("/uncertainty/budgets/{}", i)));
   }
   budgets.parts.push_back(make_source_table(uncertainty));
+  for (const Json& budget : uncertainty["budgets"]) {
+    const std::string doubt = estimation::doubt_budget(budget);
+    if (!doubt.empty()) budgets.parts.push_back(ReportText{budget["name"].get<std::string>() + ": " + doubt + "."});
+  }
   for (const Json& left_out : uncertainty["not_included"]) {
     budgets.parts.push_back(ReportText{"Not included: " + left_out.get<std::string>()});
   }
   budgets.parts.push_back(ReportText{
-      "By JCGM 100:2008: u(x) standard uncertainty, c sensitivity coefficient, dof degrees of freedom. * Assumed: no "
-      "file gives the uncertainty of this machine's instrument."});
+      "By JCGM 100:2008: u(x) standard uncertainty, c sensitivity coefficient, dof degrees of freedom. * Assumed, or "
+      "the "
+      "accuracy that a regulation asks for: put the figures of your instruments' certificates in its place."});
   sections.push_back(std::move(budgets));
   if (uncertainty.contains("monte_carlo")) sections.push_back(make_monte_carlo_section(values));
   return sections;

@@ -1,6 +1,6 @@
 #pragma once
-/// The way into the shared library of all that needs Simbody. It is loaded when the first multibody rig is made, and
-/// not before: to load Simbody takes a third of the time in which a program starts.
+/// The interface of the shared library of all that needs Simbody. It is loaded when the first multibody rig is made,
+/// and not before, since to load Simbody takes time (docs/architecture.md).
 
 #include <memory>
 #include <vector>

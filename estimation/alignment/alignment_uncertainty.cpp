@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
+#include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "estimation/uncertainty/usual_inputs.h"
-#include "include/rollrig/error.h"
+#include "estimation/uncertainty/common_inputs.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -18,36 +19,44 @@ constexpr double kRrcUnit = 1e-3;  // N/kN
 double to_SI(double rrc_N_per_kN) { return kRrcUnit * rrc_N_per_kN; }
 double from_SI(double rrc) { return rrc / kRrcUnit; }
 
-/// A line whose points have no order is a failed trial.
-LineFit fit_line_again(const std::vector<double>& x, const std::vector<double>& y) {
-  try {
-    return fit_line(x, y, {});
-  } catch (const std::invalid_argument& error) {
-    throw RunFailure(error.what());
-  }
+/// An error of one value, of mean 0, whose standard deviation is from the estimate of some scatter.
+UncertainInput make_error(const std::string& name, double sd_N_per_kN, const std::vector<UncertainInput>& scatter,
+                          const std::string& source) {
+  UncertainInput input{name, "rrc_N_per_kN", 0.0, to_SI(sd_N_per_kN)};
+  input.source = source;
+  share_scatter(scatter, input);
+  return input;
 }
 
-/// An error of one value, of mean 0.
-UncertainInput make_error(const std::string& name, double sd_N_per_kN, double degrees_freedom,
-                          const std::string& source) {
-  UncertainInput input{
-      name, "rrc_N_per_kN", 0.0, to_SI(sd_N_per_kN), Distribution::kStudentT, Evaluation::kTypeA, degrees_freedom};
-  if (!std::isfinite(degrees_freedom)) input.distribution = Distribution::kNormal;
-  input.source = source;
-  return input;
+UncertainInput make_measured_input(const AlignmentLine& line, int measurements,
+                                   const std::vector<UncertainInput>& scatter) {
+  return make_error("sigma_m of the measured value", line.sigma_m / std::sqrt(static_cast<double>(measurements)),
+                    scatter, "sigma_m of the candidate machine, from the repeats");
+}
+
+UncertainInput make_between_input(const AlignmentLine& line, const std::vector<UncertainInput>& scatter) {
+  return make_error("tire-to-tire scatter about the line", line.between_sd, scatter,
+                    "scatter about the line beyond that of the repeats");
 }
 
 void add_inputs(std::vector<UncertainInput> more, std::vector<UncertainInput>& inputs) {
   std::move(more.begin(), more.end(), std::back_inserter(inputs));
 }
 
-/// The errors of a further tire: of its measured value, and of what tires differ by beside the line.
-void add_tire_inputs(const AlignmentLine& line, int measurements, std::vector<UncertainInput>& inputs) {
-  inputs.push_back(make_error("measured value of the further tire",
-                              line.sigma_m / std::sqrt(static_cast<double>(measurements)), line.sigma_m_freedom,
-                              "sigma_m of the candidate machine, from the repeats"));
-  inputs.push_back(make_error("what tires differ by beside the line", line.between_sd, line.between_freedom,
-                              "scatter about the line beyond that of the repeats"));
+/// Degrees of freedom of s^2 - A2^2 u_x^2: of the repeats of the reference machine, where s is that of the repeats,
+/// else of a difference of variances.
+/// Equation  nu = (s^2 - a)^2 / (s^4/(p - 2) + a^2/nu_x),  a = A2^2 u_x^2
+/// Source    Satterthwaite's approximation, for a difference
+double find_rest_freedom(const AlignmentResult& result, double x_sd) {
+  const LineFit& fit = result.fit;
+  const double all = fit.sd * fit.sd;
+  const double of_x = std::pow(fit.slope * x_sd, 2);
+  if (fit.residual_sd < fit.repeat_sd) {
+    return result.sigma_l.has_value() ? result.sigma_l->degrees_of_freedom : std::numeric_limits<double>::infinity();
+  }
+  const double p = static_cast<double>(fit.points.size());
+  const double spread = all * all / (p - 2.0) + of_x * of_x / result.sigma_m.degrees_of_freedom;
+  return spread > 0.0 ? std::max(1.0, std::pow(all - of_x, 2) / spread) : std::numeric_limits<double>::infinity();
 }
 
 const std::vector<std::string> kAlignmentLeftOut{
@@ -65,16 +74,19 @@ MeasurementModel make_alignment_model(const AlignmentResult& result) {
   MeasurementModel model;
   model.measurands = {{"A2", "A2"},
                       {"B2", "B2_N_per_kN"},
-                      {"aligned value, tire of least RRC", "aligned_least_N_per_kN"},
-                      {"aligned value, middle of the range", "aligned_middle_N_per_kN"},
-                      {"aligned value, tire of greatest RRC", "aligned_greatest_N_per_kN"}};
-  add_inputs(make_scatter_inputs(p, result.sigma_m.degrees_of_freedom, "measured means of the alignment tires",
-                                 "sigma_m of the candidate machine, from the repeats"),
-             model.inputs);
-  add_inputs(make_scatter_inputs(p, fit.freedom, "values of the reference, and tires about the line",
-                                 "the larger of the scatter about the line and that of the repeats"),
-             model.inputs);
-  add_tire_inputs(result.line, 1, model.inputs);
+                      {"aligned, least RRC", "aligned_least_N_per_kN"},
+                      {"aligned, middle", "aligned_middle_N_per_kN"},
+                      {"aligned, greatest RRC", "aligned_greatest_N_per_kN"}};
+  const std::vector<UncertainInput> of_x =
+      make_scatter_inputs(p, result.sigma_m.degrees_of_freedom, "candidate machine: means of the tires",
+                          "sigma_m of the candidate machine, from the repeats");
+  const std::vector<UncertainInput> of_y = make_scatter_inputs(
+      p, find_rest_freedom(result, x_sd), "reference values, scatter about the line",
+      "scatter about the line or, where that is smaller, of the repeats, less that of the candidate machine");
+  add_inputs(of_x, model.inputs);
+  add_inputs(of_y, model.inputs);
+  model.inputs.push_back(make_measured_input(result.line, 1, of_x));
+  model.inputs.push_back(make_between_input(result.line, of_y));
   model.left_out = kAlignmentLeftOut;
   const auto [least, greatest] = std::minmax_element(fit.points.begin(), fit.points.end(),
                                                      [](const LinePoint& a, const LinePoint& b) { return a.x < b.x; });
@@ -87,11 +99,12 @@ MeasurementModel make_alignment_model(const AlignmentResult& result) {
       x.push_back(fit.points[i].x + x_sd * x_errors[i]);
       y.push_back(fit.value(fit.points[i].x) + y_sd * y_errors[i]);
     }
-    const LineFit again = fit_line_again(x, y);
+    const LineFit again = fit_line(x, y, {});
     std::vector<double> results{again.slope, to_SI(again.offset)};
+    const double measured_error = from_SI(take_scale(inputs, 0, p) * inputs[2 * p + 2]);
+    const double between = from_SI(take_scale(inputs, p + 1, p) * inputs[2 * p + 3]);
     for (const double value : measured) {
-      const double aligned = again.value(value + from_SI(inputs[2 * p + 2]));
-      results.push_back(to_SI(line.A1 * (aligned + from_SI(inputs[2 * p + 3])) + line.B1));
+      results.push_back(to_SI(line.A1 * (again.value(value + measured_error) + between) + line.B1));
     }
     return results;
   };
@@ -100,16 +113,22 @@ MeasurementModel make_alignment_model(const AlignmentResult& result) {
 
 MeasurementModel make_aligned_value_model(const AlignmentLine& line, double rrc_N_per_kN, int measurements) {
   MeasurementModel model;
-  model.measurands = {{"aligned coefficient", "aligned_N_per_kN"}};
+  model.measurands = {{"aligned RRC", "aligned_N_per_kN"}};
   model.inputs =
       make_scatter_inputs(2, line.line_freedom, "A2 and B2", "scatter of the alignment tires about the line");
-  add_tire_inputs(line, measurements, model.inputs);
+  model.inputs.push_back(make_between_input(line, model.inputs));
+  UncertainInput measured = make_measured_input(line, measurements, model.inputs);
+  measured.pool.clear();
+  measured.distribution = Distribution::kStudentT;
+  measured.degrees_freedom = line.sigma_m_freedom;
+  model.inputs.push_back(measured);
   model.left_out = kAlignmentLeftOut;
   model.evaluate = [line, rrc_N_per_kN](const std::vector<double>& inputs) {
     const std::vector<double> errors = take_scatter(inputs, 0, 2);
     const double level = line.A2 * line.mean_x + line.B2 + line.line_sd / std::sqrt(line.tires) * errors[0];
     const double slope = line.A2 + line.line_sd / std::sqrt(line.Sxx) * errors[1];
-    const double reference = level + slope * (rrc_N_per_kN + from_SI(inputs[3]) - line.mean_x) + from_SI(inputs[4]);
+    const double between = from_SI(take_scale(inputs, 0, 2) * inputs[3]);
+    const double reference = level + slope * (rrc_N_per_kN + from_SI(inputs[4]) - line.mean_x) + between;
     return std::vector<double>{to_SI(line.A1 * reference + line.B1)};
   };
   return model;

@@ -121,7 +121,7 @@ UncertainValue align_value(const AlignmentLine& line, double x, int measurements
   UncertainValue aligned;
   aligned.value = line.A1 * (line.A2 * x + line.B2) + line.B1;
   aligned.contributions = {{"A2 and B2", scale * of_line, line.line_freedom},
-                           {"scatter of tires about the line", scale * line.between_sd, line.between_freedom},
+                           {"tire-to-tire scatter about the line", scale * line.between_sd, line.between_freedom},
                            {"sigma_m of the measured value", scale * of_repeats, line.sigma_m_freedom}};
   // Line and tires rest on the same residuals, so that they err together.
   const double of_residuals = scale * scale * (of_line * of_line + line.between_sd * line.between_sd);

@@ -4,24 +4,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "estimation/road_load/road_load_report.h"
-#include "estimation/uncertainty/usual_inputs.h"
-#include "sim/core/units.h"
+#include "estimation/uncertainty/common_inputs.h"
+#include "estimation/uncertainty/covariance_root.h"
 
 namespace rollrig::estimation {
 namespace {
 
 constexpr std::size_t kCoefficients = 3;
 
-/// L of the coefficients as tested.
+/// Root L of the covariance of the coefficients as tested.
 Eigen::Matrix3d calc_tested_root(const RoadLoadProcedure& procedure) {
   Eigen::Matrix3d jacobian;  // the correction is linear in the coefficients
   for (int i = 0; i < 3; ++i) {
     TestedRoadLoad unit = procedure.tested;
     unit.measured = Eigen::Vector3d::Unit(i);
-    jacobian.col(i) = calc_road_load(unit, {}, {});
+    jacobian.col(i) = apply_sensor_errors(unit, {}, {});
   }
   return jacobian.inverse() * calc_covariance_root(procedure.repeatability);
 }
@@ -34,31 +35,10 @@ double find_least_freedom(const RoadLoadProcedure& procedure) {
   return std::max(1.0, least);
 }
 
-/// What a sensor reads, about which its error is.
-double find_reading(const RoadLoadProcedure& procedure, RoadLoadSensorKind kind) {
-  const ReferenceCorrection& at = procedure.tested.correction;
-  switch (kind) {
-    case RoadLoadSensorKind::kAmbient:
-      return *at.ambient_K;
-    case RoadLoadSensorKind::kPressure:
-      return *at.ambient_pressure_Pa;
-    case RoadLoadSensorKind::kWind:
-      return at.wind_m_s;
-    case RoadLoadSensorKind::kMass:
-      return at.mass_kg;
-    case RoadLoadSensorKind::kTurns:
-      return procedure.tested.turns_at_radius_Hz;
-    default:
-      return 0.0;  // errors over a range of readings
-  }
-}
-
-UncertainInput make_sensor_input(const RoadLoadProcedure& procedure, const RoadLoadSensor& sensor) {
-  UncertainInput input{sensor.name, sensor.key, find_reading(procedure, sensor.kind),
-                       sensor.half_width / std::sqrt(3.0), Distribution::kRectangular};
-  input.source = sensor.kind == RoadLoadSensorKind::kAirSpeed
-                     ? "accuracy that SAE J2263 asks for (from a public summary), rectangular"
-                     : "accuracy that Regulation (EU) 2018/1832, Sub-Annex 4, 3.1 asks for, rectangular";
+UncertainInput make_sensor_input(const RoadLoadSensor& sensor) {
+  UncertainInput input{sensor.name, sensor.key, sensor.reading, sensor.half_width / std::sqrt(3.0),
+                       Distribution::kRectangular};
+  input.source = sensor.source;
   input.is_from_limits = true;
   return input;
 }
@@ -70,7 +50,15 @@ std::vector<std::string> list_procedure_left_out(const RoadLoadProcedure& proced
       procedure.rotating_mass_assumed ? "the rotating mass, for which 3 % of the mass are taken" : "the rotating mass"};
   const TestedRoadLoad& tested = procedure.tested;
   if (!tested.correction.ambient_K.has_value()) left_out.push_back("air temperature: it was not measured");
-  if (tested.most_torque_Nm > 0.0 && tested.turns_at_radius_Hz == 0.0) {
+  if (tested.correction.ambient_K.has_value() && !tested.correction.ambient_pressure_Pa.has_value()) {
+    left_out.push_back("air pressure: it was not measured");
+  }
+  if (procedure.kind == RoadLoadProcedureKind::kJ1263) {
+    left_out.push_back("wind: the error of its mean is not propagated");
+  } else if (!tested.has_air_speed && tested.correction.wind_m_s == 0.0) {
+    left_out.push_back("wind: it was not measured, or opposite headings cancel it");
+  }
+  if (tested.most_torque_Nm > 0.0 && tested.wheel_speed_Hz == 0.0) {
     left_out.push_back("the dynamic radius, which was given");
   }
   return left_out;
@@ -80,24 +68,24 @@ std::vector<std::string> list_procedure_left_out(const RoadLoadProcedure& proced
 
 MeasurementModel make_procedure_model(const RoadLoadProcedure& procedure) {
   MeasurementModel model;
-  model.measurands = {{"f0, at standstill", "f0_N"},
-                      {"f1, rise with speed", "f1_N_per_km_h"},
-                      {"f2, rise with the square of speed", "f2_N_per_km_h2"}};
+  model.measurands = {{"f0", "f0_N"}, {"f1", "f1_N_per_km_h"}, {"f2", "f2_N_per_km_h2"}};
+  const bool has_f1 = procedure.kind != RoadLoadProcedureKind::kJ1263;
+  if (!has_f1) model.measurands.erase(model.measurands.begin() + 1);
   model.inputs = make_scatter_inputs(kCoefficients, find_least_freedom(procedure), "scatter of the runs",
                                      "covariance of f0, f1 and f2 by the procedure");
   const std::size_t first_sensor = model.inputs.size();
   std::vector<RoadLoadSensor> sensors = list_road_load_sensors(procedure.tested);
-  for (const RoadLoadSensor& sensor : sensors) model.inputs.push_back(make_sensor_input(procedure, sensor));
+  for (const RoadLoadSensor& sensor : sensors) model.inputs.push_back(make_sensor_input(sensor));
   model.left_out = list_procedure_left_out(procedure);
   model.evaluate = [tested = procedure.tested, root = calc_tested_root(procedure), sensors = std::move(sensors),
-                    inputs = model.inputs, first_sensor](const std::vector<double>& x) {
+                    inputs = model.inputs, first_sensor, has_f1](const std::vector<double>& x) {
     const std::vector<double> scatter = take_scatter(x, 0, kCoefficients);
     TestedRoadLoad drawn = tested;
     drawn.measured += root * Eigen::Vector3d(scatter[0], scatter[1], scatter[2]);
     std::vector<double> errors;
     for (std::size_t i = first_sensor; i < x.size(); ++i) errors.push_back(x[i] - inputs[i].value);
-    const Eigen::Vector3d load = calc_road_load(drawn, sensors, errors);
-    return std::vector<double>{load(0), load(1), load(2)};
+    const Eigen::Vector3d load = apply_sensor_errors(drawn, sensors, errors);
+    return has_f1 ? std::vector<double>{load(0), load(1), load(2)} : std::vector<double>{load(0), load(2)};
   };
   return model;
 }

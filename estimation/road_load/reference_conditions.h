@@ -38,37 +38,45 @@ Eigen::Vector3d correct_to_reference(const Eigen::Vector3d& measured, const Refe
 struct TestedRoadLoad {
   Eigen::Vector3d measured = Eigen::Vector3d::Zero();  // coefficients of a force, or of a torque
   ReferenceCorrection correction;
-  bool in_proportion_to_mass = true;  // a force from a deceleration
-  double force_per_unit = 1.0;        // of a torque: 1.02/r' [1/m]
-  bool has_air_speed = false;         // the air flow was measured on the vehicle
-  double most_torque_Nm = 0.0;        // of the torque-meter method: the largest one measured
-  double turns_at_radius_Hz = 0.0;    // of the wheels where r' was found; 0: r' is given
+  bool in_proportion_to_mass = true;        // a force from a deceleration
+  double rotating_mass_kg = 0.0;            // that does not change with the mass; 0: a share of it
+  bool has_mass_correction = false;         // else the mass to correct to is that of the test, its error included
+  double force_per_unit = 1.0;              // of a torque: 1.02/r' [1/m]
+  std::optional<Eigen::Vector3d> by_speed;  // change of `measured` by an error of the vehicle speed [1/(m/s)]; absent:
+                                            // the curve moves along the speed
+  bool has_air_speed = false;               // the air flow was measured on the vehicle
+  double most_torque_Nm = 0.0;              // of the torque-meter method: the largest one measured
+  double radius_speed_m_s = 0.0;            // at which r' was found; 0: r' is given, or not needed
+  double wheel_speed_Hz = 0.0;              // turns of the wheels at that speed
 };
 
-/// What a sensor measures.
-enum class RoadLoadSensorKind { kSpeed, kAmbient, kPressure, kWind, kMass, kAirSpeed, kTorque, kTurns };
+enum class RoadLoadSensorKind { kSpeed, kAmbient, kPressure, kWind, kMass, kAirSpeed, kTorque, kWheelSpeed };
 
 struct RoadLoadSensor {
   RoadLoadSensorKind kind = RoadLoadSensorKind::kMass;
   std::string name;
   std::string key;          // with its unit
   double half_width = 0.0;  // of its accuracy, in SI units; a rectangular distribution
+  std::string source;       // of that
+  double reading = 0.0;     // about which its error is; 0 where it read a range of values
 };
 
 /// The sensors that the road load rests on, with the accuracy that the regulation asks for: 0.2 km/h, 1 degC, 0.3 kPa,
 /// 0.3 m/s, 10 kg (20 kg above 4000 kg), 6 Nm or 0.5 % of the largest torque, 0.05 turns a second; of an air speed
-/// 1 km/h. An air speed or a torque that was not measured has no sensor.
+/// 1 km/h. What was not measured has no sensor, nor has a wind that opposite headings cancel.
 /// Source    Regulation (EU) 2018/1832, 3.1 of Sub-Annex 4; air speed: SAE J2263, from a public summary
 std::vector<RoadLoadSensor> list_road_load_sensors(const TestedRoadLoad& tested);
 
-/// The coefficients of the force at reference conditions with what sensors read too high, one error each.
-/// Equation  correct_to_reference() of coefficients and conditions that have the errors. A speed that reads e too high
-///           makes f0 too small by f1 e - f2 e^2 and f1 by 2 f2 e; an air speed makes 2 f2 e of f1 missing; a torque is
-///           added to c0; r' = v/(2 pi n) at 80 km/h
-/// Symbols   v speed, n turns of the wheels a second
-/// Checked   tests/estimation/reference_conditions_test.cpp
-Eigen::Vector3d calc_road_load(const TestedRoadLoad& tested, const std::vector<RoadLoadSensor>& sensors,
-                               const std::vector<double>& errors);
+/// The road load at reference conditions, as found if each sensor read its entry of `errors_SI` too high.
+/// Equation  correct_to_reference() of coefficients and conditions that have the errors. Vehicle speed e: F(v - e), that
+///           is f0 - f1 e + f2 e^2 and f1 - 2 f2 e, or measured + by_speed e; r' = v/(2 pi n), times 1 + e/v_r. Air
+///           speed e: f1 - 2 f2 e; the square of e is left out, as the fit of a curve without it would have it. Torque
+///           e: c0 + e. Wheel speed e: r' over 1 + e/n
+/// Symbols   v_r speed at which r' was found, n turns of the wheels a second there
+/// Source    derived here; the speed of a regression on traces by that regression (evaluate_traces)
+/// Checked   tests/estimation/reference_conditions_test.cpp, tests/estimation/procedure_uncertainty_test.cpp
+Eigen::Vector3d apply_sensor_errors(const TestedRoadLoad& tested, const std::vector<RoadLoadSensor>& sensors,
+                                    const std::vector<double>& errors_SI);
 
 /// What the accuracy of a sensor does to the coefficients of the force.
 struct SensorContribution {

@@ -190,6 +190,8 @@ void finish_procedure(const RoadLoadProcedureOptions& options, RoadLoadProcedure
   procedure.freedom = reference.freedom;
   procedure.tested.measured = procedure.as_tested;
   procedure.tested.correction = procedure.correction;
+  procedure.tested.has_mass_correction = options.corrected_to_mass_kg.has_value();
+  if (!procedure.rotating_mass_assumed) procedure.tested.rotating_mass_kg = procedure.rotating_mass_kg;
   if (options.sensor_accuracy) procedure.sensors = list_sensor_contributions(procedure.tested);
 }
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "estimation/road_load/road_load_report.h"
-#include "estimation/uncertainty/usual_inputs.h"
+#include "estimation/uncertainty/common_inputs.h"
+#include "estimation/uncertainty/covariance_root.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -20,9 +22,11 @@ constexpr double kAmbientLimit_K = 1.0;      // Assumed: a thermometer at the tr
 constexpr double kPressureLimit_Pa = 300.0;  // Assumed: a barometer at the track
 constexpr double kFallLimit = 0.3;           // Assumed: of K_0, which differs from tire to tire
 
-/// Places of the inputs after the three of the scatter.
+constexpr std::size_t kScattered = 3;  // A, B, C
+
+/// Places of the inputs after those of the scatter.
 namespace road_input {
-enum : std::size_t { kMass = 3, kRotating, kSpeedGain, kAmbient, kPressure, kFall };
+enum : std::size_t { kMass = kScattered + 1, kRotating, kSpeedGain, kAmbient, kPressure, kFall };
 }
 
 /// Mean over all samples (or bins) of all runs; `missing` where there are none.
@@ -36,28 +40,26 @@ double calc_mean_of(const CoastdownData& data, std::vector<double> CoastdownCond
   return count == 0 ? missing : sum / static_cast<double>(count);
 }
 
-std::vector<UncertainInput> make_coefficient_scatter(const RoadLoadFit& fit) {
+/// The fewest degrees of freedom of the coefficients that are not on a bound.
+double find_least_freedom(const RoadLoadFit& fit) {
   double freedom = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < kScattered; ++i) {
     if (!fit.on_bound[i]) freedom = std::min(freedom, fit.degrees_freedom[i]);
   }
-  freedom = std::max(1.0, freedom);
-  UncertainInput input{"scatter of the runs", "scatter", 0.0, 1.0, Distribution::kNormal, Evaluation::kTypeA, freedom};
-  if (std::isfinite(freedom)) input.distribution = Distribution::kStudentT;
-  input.source = "covariance of A, B and C by the fit";
-  return {input, input, input};
+  return std::max(1.0, freedom);
 }
 
 std::vector<UncertainInput> make_road_inputs(const CoastdownData& data, const RoadLoadFitOptions& options,
                                              const RoadLoadFit& fit) {
-  std::vector<UncertainInput> inputs = make_coefficient_scatter(fit);
+  std::vector<UncertainInput> inputs = make_scatter_inputs(kScattered, find_least_freedom(fit), "scatter of the runs",
+                                                           "covariance of A, B and C by the fit");
   const double mass_kg = find_test_mass_kg(options, fit.effective_mass_kg);
   const double rotating_kg = fit.effective_mass_kg - mass_kg;
-  inputs.push_back(make_assumed_limit("test mass", "mass_kg", mass_kg, kMassLimit * mass_kg, "0.2 % of the mass"));
+  inputs.push_back(make_assumed_input("test mass", "mass_kg", mass_kg, kMassLimit * mass_kg, "0.2 % of the mass"));
   inputs.push_back(options.rotating_mass_kg.has_value()
-                       ? make_assumed_limit("rotating mass", "rotating_mass_kg", rotating_kg,
+                       ? make_assumed_input("rotating mass", "rotating_mass_kg", rotating_kg,
                                             kKnownRotatingLimit * rotating_kg, "10 % of it")
-                       : make_assumed_limit("rotating mass", "rotating_mass_kg", rotating_kg, kRatioLimit * mass_kg,
+                       : make_assumed_input("rotating mass", "rotating_mass_kg", rotating_kg, kRatioLimit * mass_kg,
                                             "1 % of the test mass, since 3 % of it are taken"));
   if (fit.per_mass) {
     for (std::size_t i = road_input::kMass; i <= road_input::kRotating; ++i) {
@@ -66,15 +68,15 @@ std::vector<UncertainInput> make_road_inputs(const CoastdownData& data, const Ro
       inputs[i].is_from_limits = false;
     }
   }
-  inputs.push_back(make_assumed_limit("gain of the speed", "gain", 1.0, kSpeedGainLimit, "0.2 %"));
-  inputs.push_back(make_assumed_limit(
+  inputs.push_back(make_assumed_input("gain of the speed", "gain_percent", 1.0, kSpeedGainLimit, "0.2 %"));
+  inputs.push_back(make_assumed_input(
       "air temperature", "ambient_degC",
       calc_mean_of(data, &CoastdownConditions::ambient_K, options.reference_temperature_K), kAmbientLimit_K, "1 degC"));
   inputs.push_back(
-      make_assumed_limit("air pressure", "ambient_pressure_kPa",
+      make_assumed_input("air pressure", "ambient_pressure_kPa",
                          calc_mean_of(data, &CoastdownConditions::ambient_pressure_Pa, options.reference_pressure_Pa),
                          kPressureLimit_Pa, "0.3 kPa"));
-  inputs.push_back(make_assumed_limit("fall of A and B with temperature", "fall_per_K", options.rolling_fall_per_K,
+  inputs.push_back(make_assumed_input("fall of A and B with temperature", "fall_per_K", options.rolling_fall_per_K,
                                       kFallLimit * options.rolling_fall_per_K, "30 % of it"));
   return inputs;
 }
@@ -113,7 +115,8 @@ MeasurementModel make_road_load_model(const CoastdownData& data, const RoadLoadF
   const double density_0 = model.inputs[road_input::kPressure].value / model.inputs[road_input::kAmbient].value;
   const double mass_0 = model.inputs[road_input::kMass].value + model.inputs[road_input::kRotating].value;
   model.evaluate = [=](const std::vector<double>& x) {
-    const Eigen::Vector3d scattered = load + root * Eigen::Vector3d(x[0], x[1], x[2]);
+    const std::vector<double> scatter = take_scatter(x, 0, kScattered);
+    const Eigen::Vector3d scattered = load + root * Eigen::Vector3d(scatter[0], scatter[1], scatter[2]);
     const double by_mass = (x[road_input::kMass] + x[road_input::kRotating]) / mass_0;
     const double by_weather = rolling(x[road_input::kFall], x[road_input::kAmbient]) / rolling_0;
     const double by_density = density_0 * x[road_input::kAmbient] / x[road_input::kPressure];

@@ -95,16 +95,17 @@ TorqueFile read_torque_file(const std::string& path, BadRows bad_rows) {
   return file;
 }
 
-/// Radius from the wheels' rotation at 80 km/h, or at the highest reference speed below.
-/// The dynamic radius, and the turns of the wheels a second where it was found; 0 where it is given.
+/// The dynamic radius, and the speeds of vehicle and wheels at which it was found; 0 where it is given.
 struct DynamicRadius {
   double radius_m = 0.0;
-  double turns_Hz = 0.0;
+  double speed_m_s = 0.0;
+  double wheel_speed_Hz = 0.0;
 };
 
+/// By the wheels' rotation at 80 km/h, or at the highest reference speed below.
 DynamicRadius find_wheel_radius(const TorqueFile& file, const RoadLoadProcedureOptions& options) {
   constexpr int kRadiusSpeed_km_h = 80;
-  if (options.wheel_radius_m.has_value()) return {*options.wheel_radius_m, 0.0};
+  if (options.wheel_radius_m.has_value()) return {*options.wheel_radius_m, 0.0, 0.0};
   if (!file.has_wheel_speeds) {
     throw InputError({"the dynamic radius of the tires is missing: a torque becomes a force by it", "command line", 0,
                       "--wheel-radius", "", "--wheel-radius <m>, or a column wheel_speed_Hz", ""});
@@ -120,7 +121,7 @@ DynamicRadius find_wheel_radius(const TorqueFile& file, const RoadLoadProcedureO
     turns_Hz += calc_mean(at.wheel_Hz);
     count += 1.0;
   }
-  return {speed_m_s / (boost::math::constants::two_pi<double>() * turns_Hz), turns_Hz / count};
+  return {speed_m_s / (boost::math::constants::two_pi<double>() * turns_Hz), speed_m_s / count, turns_Hz / count};
 }
 
 /// Equation  C_m = mean C - (m_st + m_r) a r,  a slope of the speed over time
@@ -250,7 +251,8 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   TestedRoadLoad& tested = procedure.tested;
   tested.in_proportion_to_mass = false;
   tested.force_per_unit = kDrivelineFactor / radius.radius_m;
-  tested.turns_at_radius_Hz = radius.turns_Hz;
+  tested.radius_speed_m_s = radius.speed_m_s;
+  tested.wheel_speed_Hz = radius.wheel_speed_Hz;
   for (const MeanTorque& mean : means) tested.most_torque_Nm = std::max(tested.most_torque_Nm, mean.torque_Nm);
   finish_procedure(options, procedure);
   put_fitted(procedure);

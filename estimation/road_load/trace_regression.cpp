@@ -93,8 +93,9 @@ TraceRun cut_trace(const CoastdownRun& run, std::size_t index, const RoadLoadPro
 }
 
 /// Air speed and yaw at the vehicle against those that the wind beside the road gives: a line through both, as in
-/// 40 CFR 1037.528(g). Where there is no such wind, says by how much the air speed is off on average of both headings.
-void calibrate_air(const CoastdownData& data, std::vector<TraceRun>& traces, std::vector<std::string>& warnings) {
+/// 40 CFR 1037.528(g). Where there is no such wind, says by how much the air speed is off on average of both headings,
+/// and returns false.
+bool calibrate_air(const CoastdownData& data, std::vector<TraceRun>& traces, std::vector<std::string>& warnings) {
   constexpr double kLeastYawSpread_rad = 0.5 * 0.017453292519943295;
   constexpr double kMostScale = 0.02;
   const bool has_wind = std::all_of(data.runs.begin(), data.runs.end(), [](const CoastdownRun& run) {
@@ -116,7 +117,7 @@ void calibrate_air(const CoastdownData& data, std::vector<TraceRun>& traces, std
                       "is not calibrated, or a column is in another unit. The drag area is wrong by about twice that",
                       100.0 * (scale - 1.0)));
     }
-    return;
+    return false;
   }
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, p = 0.0, q = 0.0, pp = 0.0, pq = 0.0;
   const auto theory = [&data](const TraceRun& trace, double speed_m_s) {
@@ -149,6 +150,7 @@ void calibrate_air(const CoastdownData& data, std::vector<TraceRun>& traces, std
       sample.air.yaw_rad = (sample.air.yaw_rad - b0) / b1;
     }
   }
+  return true;
 }
 
 /// What a coefficient is multiplied by at a sample.
@@ -165,6 +167,10 @@ VectorXd list_terms(const TraceTerms& terms, const TraceSample& sample, int head
   return factors;
 }
 
+/// Without B, no run has a slope of its own over the speed: it would take up the part of the loss that all runs have in
+/// proportion to the speed, which f0 and f2 have to stand for.
+Index count_components(const TraceTerms& terms) { return terms.has_B ? kTraceComponents : kSlopeOfRun; }
+
 /// Differences of the mean speeds of neighboring stretches, as forces. The mean of a stretch weighs what happens
 /// between the middles of two stretches most, so that each term enters with a triangle over both.
 LinearBlock make_trace_block(const TraceRun& trace, const TraceTerms& terms, double mass_kg, double effective_kg) {
@@ -174,7 +180,7 @@ LinearBlock make_trace_block(const TraceRun& trace, const TraceTerms& terms, dou
   LinearBlock block;
   block.y = VectorXd::Zero(rows);
   block.X = MatrixXd::Zero(rows, terms.count());
-  block.patterns.assign(kTraceComponents, MatrixXd::Zero(rows, rows));
+  block.patterns.assign(static_cast<std::size_t>(count_components(terms)), MatrixXd::Zero(rows, rows));
   VectorXd length_s(rows), speed(rows);
   const auto per_sample = static_cast<double>(N);
   for (Index row = 0; row < rows; ++row) {
@@ -207,7 +213,9 @@ LinearBlock make_trace_block(const TraceRun& trace, const TraceTerms& terms, dou
     }
   }
   block.patterns[kForceOfRun].setOnes();
-  block.patterns[kSlopeOfRun] = speed * speed.transpose() / (kSpeedScale_m_s * kSpeedScale_m_s);
+  if (terms.has_B) {
+    block.patterns[kSlopeOfRun] = speed * speed.transpose() / (kSpeedScale_m_s * kSpeedScale_m_s);
+  }
   return block;
 }
 
@@ -216,10 +224,11 @@ LinearEstimate iterate_blocks(const std::vector<LinearBlock>& blocks) {
   constexpr int kMostTurns = 60;
   constexpr double kLeastNoise_m_s = 1e-4;  // Assumed: far below any sensor's, so that data without noise have weights
   constexpr double kStep = 1e-3;
-  VectorXd floors = VectorXd::Zero(kTraceComponents);
+  const auto count = static_cast<Index>(blocks.front().patterns.size());
+  VectorXd floors = VectorXd::Zero(count);
   floors(kSpeedNoise) = kLeastNoise_m_s * kLeastNoise_m_s;
-  VectorXd components(kTraceComponents);
-  components << 0.05 * 0.05, 10.0, 1.0, 1.0;  // Assumed: where the turns begin
+  Eigen::Vector4d start(0.05 * 0.05, 10.0, 1.0, 1.0);  // Assumed: where the turns begin
+  VectorXd components = start.head(count);
   LinearEstimate estimate;
   for (int turn = 0; turn < kMostTurns; ++turn) {
     estimate = step_variance_components(blocks, components, floors);
@@ -369,29 +378,13 @@ void put_estimate(const LinearEstimate& estimate, const TraceTerms& terms, const
       {"run_to_run_N", "scatter from run to run, N", std::sqrt(estimate.components(kForceOfRun)), 0.0});
 }
 
-/// The wind is in the equation of motion, not in a correction.
-void put_trace_sensors(bool on_board, const RoadLoadProcedureOptions& options, RoadLoadProcedure& procedure) {
-  procedure.tested.measured = procedure.as_tested;
-  procedure.tested.correction = procedure.correction;
-  procedure.tested.correction.wind_m_s = 0.0;
-  procedure.tested.has_air_speed = on_board;
-  if (options.sensor_accuracy) procedure.sensors = list_sensor_contributions(procedure.tested);
-}
-
-}  // namespace
-
-RoadLoadProcedure evaluate_traces(const CoastdownFile& file, const RoadLoadProcedureOptions& options) {
+RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoadProcedureOptions& options) {
   constexpr double kReferencePressure_Pa = 98.21e3;  // 40 CFR 1066.305
   constexpr WindLimits kOnBoard{7.0, 10.0, 4.0, "UN GTR 15 Annex 4, 4.1.1.1.2"};
   constexpr WindLimits kStationary{16.0 / 3.6, 20.0 / 3.6, 8.0 / 3.6, "SAE J1263"};
   RoadLoadProcedure procedure;
   procedure.kind = options.kind;
   const bool on_board = require_air(file.data, options);
-  if (options.corrected_to_mass_kg.has_value()) {
-    throw InputError({"SAE J2263 and SAE J1263 have no correction for the mass", "command line", 0, "--corrected-mass",
-                      fmt::format("{:g}", *options.corrected_to_mass_kg),
-                      "none; --method wltp and torque-meter correct for it", ""});
-  }
   put_masses(options, procedure);
   put_conditions(file.data, options, kReferencePressure_Pa, procedure);
   std::vector<TraceRun> traces;
@@ -400,7 +393,7 @@ RoadLoadProcedure evaluate_traces(const CoastdownFile& file, const RoadLoadProce
     if (trace.stretch > 0 && trace.samples.size() >= 3 * trace.stretch) traces.push_back(std::move(trace));
     procedure.run_names.push_back(name_of_run(file.data.runs[i], file.data));
   }
-  if (on_board) calibrate_air(file.data, traces, procedure.warnings);
+  const bool is_calibrated = on_board && calibrate_air(file.data, traces, procedure.warnings);
   const bool has_air = on_board || !file.data.runs.front().conditions.wind_m_s.empty();
   const std::vector<std::string> windy = check_winds(on_board ? find_winds(file.data, traces) : file.data,
                                                      on_board ? kOnBoard : kStationary, procedure.checks);
@@ -424,7 +417,11 @@ RoadLoadProcedure evaluate_traces(const CoastdownFile& file, const RoadLoadProce
   }
   const LinearEstimate estimate = iterate_blocks(blocks);
   put_estimate(estimate, terms, options, procedure);
-  put_trace_sensors(on_board, options, procedure);
+  procedure.tested.measured = procedure.as_tested;
+  procedure.tested.correction = procedure.correction;
+  procedure.tested.correction.wind_m_s = 0.0;  // it is in the equation of motion
+  if (!procedure.rotating_mass_assumed) procedure.tested.rotating_mass_kg = procedure.rotating_mass_kg;
+  procedure.tested.has_air_speed = on_board && !is_calibrated;  // else an error of the air speed cancels
   for (std::size_t k = 0; k < traces.size(); ++k) {
     const VectorXd fitted = blocks[k].X * estimate.coefficients;
     for (Index row = 0; row < fitted.size(); ++row) {
@@ -434,6 +431,33 @@ RoadLoadProcedure evaluate_traces(const CoastdownFile& file, const RoadLoadProce
     }
   }
   doubt_units(procedure);
+  return procedure;
+}
+
+/// Change of the coefficients by an error of all vehicle speeds [1/(m/s)]: the same regression on speeds that have it.
+Eigen::Vector3d find_change_by_speed(CoastdownFile file, const RoadLoadProcedureOptions& options,
+                                     const Eigen::Vector3d& as_tested) {
+  constexpr double kError_m_s = 0.2 / kKmhPerMs;
+  for (CoastdownRun& run : file.data.runs) {
+    for (double& speed_m_s : run.speed_m_s) speed_m_s += kError_m_s;
+  }
+  RoadLoadProcedureOptions moved = options;  // the same samples
+  moved.speed_from_m_s += kError_m_s;
+  moved.speed_to_m_s += kError_m_s;
+  return (evaluate_traces_once(file, moved).as_tested - as_tested) / kError_m_s;
+}
+
+}  // namespace
+
+RoadLoadProcedure evaluate_traces(const CoastdownFile& file, const RoadLoadProcedureOptions& options) {
+  if (options.corrected_to_mass_kg.has_value()) {
+    throw InputError({"SAE J2263 and SAE J1263 have no correction for the mass", "command line", 0, "--corrected-mass",
+                      fmt::format("{:g}", *options.corrected_to_mass_kg),
+                      "none; --method wltp and torque-meter correct for it", ""});
+  }
+  RoadLoadProcedure procedure = evaluate_traces_once(file, options);
+  procedure.tested.by_speed = find_change_by_speed(file, options, procedure.as_tested);
+  if (options.sensor_accuracy) procedure.sensors = list_sensor_contributions(procedure.tested);
   return procedure;
 }
 

@@ -2,58 +2,70 @@
 
 #include <utility>
 
-#include "estimation/uncertainty/usual_inputs.h"
+#include "estimation/uncertainty/common_inputs.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
 
-// Half-widths of rectangular distributions, common to all points. Assumed: what machines for ISO 28580 have to keep (UN
-// R117 Annex 6, appendix 1); of SAE J2452 and SAE J1269 nothing could be read.
+// Half-widths of rectangular distributions, common to all points. Assumed: of gain, load, pressure and speed what
+// machines for ISO 28580 have to keep (UN R117 Annex 6, appendix 1); nothing on them was found in SAE J2452 and SAE
+// J1269.
 constexpr double kRollingForceGainLimit = 0.005;
-constexpr double kRollingForceZeroLimit_N = 0.5;
+constexpr double kRollingParasiticLimit_N = 0.1;  // Assumed: drift of the zero between load and skim
 constexpr double kRollingLoadLimit = 0.005;
 constexpr double kRollingPressureLimit_Pa = 1e3;
 constexpr double kRollingSpeedLimit_m_s = 0.1 / kKmhPerMs;
 
-/// Places of the inputs; the scatter of the points is after them.
+/// Places of the inputs. The scatter of the points follows, at kSpeed where the law has no speed.
 namespace rolling_input {
-enum : std::size_t { kGain, kZero, kLoad, kPressure, kSpeed, kScatter };
+enum : std::size_t { kGain, kParasitic, kLoad, kPressure, kSpeed };
 }
 
-std::vector<UncertainInput> make_rolling_inputs(const std::vector<FittedPoint>& points, int freedom) {
+struct RollingInputs {
+  std::vector<UncertainInput> inputs;
+  std::size_t scatter = 0;  // place of the first one
+  bool has_speed = false;
+};
+
+RollingInputs make_rolling_inputs(const std::vector<FittedPoint>& points, int freedom, bool has_speed) {
   double speed_m_s = 0.0, pressure_Pa = 0.0;
   for (const FittedPoint& at : points) {
     speed_m_s += at.point.speed_m_s / static_cast<double>(points.size());
     pressure_Pa += at.point.pressure_Pa / static_cast<double>(points.size());
   }
-  std::vector<UncertainInput> inputs{
-      make_assumed_limit("gain of torque or force", "gain_percent", 1.0, kRollingForceGainLimit, "0.5 %"),
-      make_assumed_limit("zero of torque or force", "force_N", 0.0, kRollingForceZeroLimit_N, "0.5 N"),
-      make_assumed_limit("gain of the load", "gain_percent", 1.0, kRollingLoadLimit, "0.5 %"),
-      make_assumed_limit("pressure", "pressure_kPa", pressure_Pa, kRollingPressureLimit_Pa, "1 kPa"),
-      make_assumed_limit("speed", "speed_km_h", speed_m_s, kRollingSpeedLimit_m_s, "0.1 km/h")};
+  RollingInputs made;
+  made.has_speed = has_speed;
+  made.inputs = {make_assumed_input("gain of torque or force", "gain_percent", 1.0, kRollingForceGainLimit, "0.5 %"),
+                 make_assumed_input("parasitic loss that was subtracted", "force_N", 0.0, kRollingParasiticLimit_N,
+                                    "0.1 N, the drift of the zero between load and skim"),
+                 make_assumed_input("gain of the load", "gain_percent", 1.0, kRollingLoadLimit, "0.5 %"),
+                 make_assumed_input("pressure", "pressure_kPa", pressure_Pa, kRollingPressureLimit_Pa, "1 kPa")};
+  if (has_speed) {
+    made.inputs.push_back(make_assumed_input("speed", "speed_km_h", speed_m_s, kRollingSpeedLimit_m_s, "0.1 km/h"));
+  }
+  made.scatter = made.inputs.size();
   for (UncertainInput& scatter :
        make_scatter_inputs(points.size(), freedom, "scatter of the points", "standard deviation of the residuals")) {
-    inputs.push_back(std::move(scatter));
+    made.inputs.push_back(std::move(scatter));
   }
-  return inputs;
+  return made;
 }
 
 /// Points as they would be measured with the errors of the inputs.
 std::vector<RollingPoint> apply_errors(const std::vector<FittedPoint>& points, double residual_sd_N,
-                                       const std::vector<UncertainInput>& inputs, const std::vector<double>& x) {
-  const std::vector<double> scatter = take_scatter(x, rolling_input::kScatter, points.size());
-  const auto error_of = [&](std::size_t i) { return x[i] - inputs[i].value; };
+                                       const RollingInputs& made, const std::vector<double>& x) {
+  const std::vector<double> scatter = take_scatter(x, made.scatter, points.size());
+  const auto error_of = [&](std::size_t i) { return x[i] - made.inputs[i].value; };
   std::vector<RollingPoint> measured;
   for (std::size_t i = 0; i < points.size(); ++i) {
     RollingPoint point = points[i].point;
     point.force_N =
-        x[rolling_input::kGain] * (points[i].fitted_N + residual_sd_N * scatter[i]) + x[rolling_input::kZero];
+        x[rolling_input::kGain] * (points[i].fitted_N + residual_sd_N * scatter[i]) + x[rolling_input::kParasitic];
     point.load_N *= x[rolling_input::kLoad];
     point.pressure_Pa += error_of(rolling_input::kPressure);
-    point.speed_m_s += error_of(rolling_input::kSpeed);
+    if (made.has_speed) point.speed_m_s += error_of(rolling_input::kSpeed);
     measured.push_back(point);
   }
   return measured;
@@ -62,8 +74,9 @@ std::vector<RollingPoint> apply_errors(const std::vector<FittedPoint>& points, d
 void require_freedom(const RollingTest& test, const RegressionStatistics& statistics) {
   if (statistics.freedom > 0) return;
   throw InputError(
-      {"as many coefficients as points: their scatter is not known, and there is no uncertainty without it", test.path,
-       0, "--uncertainty", "", "more points, or no --uncertainty and no --monte-carlo", ""});
+      {"there are as many coefficients as points, so that their scatter is unknown and no uncertainty can "
+       "be given",
+       test.path, 0, "", "", "more points, or no --uncertainty and no --monte-carlo", ""});
 }
 
 std::vector<std::string> list_rolling_left_out(const RollingTest& test) {
@@ -76,36 +89,26 @@ std::vector<std::string> list_rolling_left_out(const RollingTest& test) {
   return left_out;
 }
 
-/// Fits the law to points with errors. What the errors make of a point that no fit takes is a failed trial.
-template <class Fit>
-auto fit_again(const Fit& fit) {
-  try {
-    return fit();
-  } catch (const InputError& error) {
-    throw RunFailure(error.what());
-  }
-}
-
 }  // namespace
 
 MeasurementModel make_j2452_model(const RollingTest& test, const J2452Fit& fit,
                                   const std::optional<J2452Reference>& reference) {
   require_freedom(test, fit.statistics);
   MeasurementModel model;
-  model.measurands = {{"alpha, exponent of the pressure", "alpha"}, {"beta, exponent of the load", "beta"}};
+  model.measurands = {{"alpha, of pressure", "alpha"}, {"beta, of load", "beta"}};
   if (reference.has_value()) {
-    model.measurands.insert(model.measurands.end(),
-                            {{"rolling resistance at 80 km/h", "rolling_resistance_N"},
-                             {"coefficient of rolling resistance", "rrc_N_per_kN"},
-                             {"MERF, mean over " + reference->cycles.urban_cycle, "merf_urban_N"},
-                             {"MERF, mean over " + reference->cycles.highway_cycle, "merf_highway_N"},
-                             {"SMERF, 0.55 and 0.45 of these", "smerf_N"}});
+    model.measurands.insert(model.measurands.end(), {{"F at 80 km/h", "rolling_resistance_N"},
+                                                     {"RRc", "rrc_N_per_kN"},
+                                                     {"MERF, " + reference->cycles.urban_cycle, "merf_urban_N"},
+                                                     {"MERF, " + reference->cycles.highway_cycle, "merf_highway_N"},
+                                                     {"SMERF", "smerf_N"}});
   }
-  model.inputs = make_rolling_inputs(fit.points, fit.statistics.freedom);
+  const RollingInputs made = make_rolling_inputs(fit.points, fit.statistics.freedom, true);
+  model.inputs = made.inputs;
   model.left_out = list_rolling_left_out(test);
-  model.evaluate = [points = fit.points, sd_N = fit.statistics.residual_sd_N, inputs = model.inputs,
+  model.evaluate = [points = fit.points, sd_N = fit.statistics.residual_sd_N, made,
                     reference](const std::vector<double>& x) {
-    const J2452Fit again = fit_again([&] { return fit_j2452(apply_errors(points, sd_N, inputs, x)); });
+    const J2452Fit again = fit_j2452(apply_errors(points, sd_N, made, x));
     std::vector<double> results{again.law.alpha, again.law.beta};
     if (reference.has_value()) {
       const J2452Reference at = evaluate_reference(again, reference->condition, reference->cycles);
@@ -121,19 +124,16 @@ MeasurementModel make_multipoint_model(const RollingTest& test, const Multipoint
                                        const std::optional<MultipointReference>& reference) {
   require_freedom(test, fit.statistics);
   MeasurementModel model;
-  const std::string at = reference.has_value() ? "the reference condition" : "mean load and pressure";
-  model.measurands = {{"rolling resistance at " + at, "rolling_resistance_N"},
-                      {"coefficient of rolling resistance", "rrc_N_per_kN"}};
-  model.inputs = make_rolling_inputs(fit.points, fit.statistics.freedom);
-  model.inputs[rolling_input::kSpeed].standard_uncertainty = 0.0;
-  model.inputs[rolling_input::kSpeed].source = "none: the law has one speed";
-  model.inputs[rolling_input::kSpeed].is_from_limits = false;
+  const std::string at = reference.has_value() ? "reference" : "mean load, pressure";
+  model.measurands = {{"F at " + at, "rolling_resistance_N"}, {"RRc", "rrc_N_per_kN"}};
+  const RollingInputs made = make_rolling_inputs(fit.points, fit.statistics.freedom, false);
+  model.inputs = made.inputs;
   model.left_out = list_rolling_left_out(test);
   const double load_N = reference.has_value() ? reference->condition.load_N : fit.load_0_N;
   const double pressure_Pa = reference.has_value() ? reference->condition.pressure_Pa : fit.pressure_0_Pa;
-  model.evaluate = [points = fit.points, form = fit.form, sd_N = fit.statistics.residual_sd_N, inputs = model.inputs,
-                    load_N, pressure_Pa](const std::vector<double>& x) {
-    const MultipointFit again = fit_again([&] { return fit_multipoint(apply_errors(points, sd_N, inputs, x), form); });
+  model.evaluate = [points = fit.points, form = fit.form, sd_N = fit.statistics.residual_sd_N, made, load_N,
+                    pressure_Pa](const std::vector<double>& x) {
+    const MultipointFit again = fit_multipoint(apply_errors(points, sd_N, made, x), form);
     const double force_N = again.estimate_force(load_N, pressure_Pa).value_N;
     return std::vector<double>{force_N, force_N / load_N};
   };

@@ -11,12 +11,14 @@ namespace rollrig::estimation {
 /// Exponents of pressure and load and, with a reference condition, its forces and its coefficient.
 ///
 /// Each evaluation fits the law again, to points that have the errors of its inputs.
-/// Equation  F_i = g (f_i + s k z_i) + f_0,  P_i = p_i + p_0,  Z_i = G z_i,  v_i = w_i + w_0
-/// Symbols   f_i force of the law at the point, s standard deviation of the residuals, k z_i scatter as in
-///           make_scatter_inputs(); common to all points: gain g and zero f_0 of the force, error p_0 of the pressure,
-///           gain G of the load, error w_0 of the speed
-/// Validity  the law describes the tire; points without trend from one to the next. a, b and c are not among the
-///           results: they are the force at 1 kPa, 1 N and standstill, far from every point
+/// Equation  F'_i = g (F_i + s k z_i) + dF,  p'_i = p_i + dp,  Z'_i = G Z_i,  v'_i = v_i + dv
+/// Symbols   F_i force of the law at point i [N]; s standard deviation of the residuals [N], k z_i as in
+///           make_scatter_inputs(); p_i pressure [Pa], Z_i load [N], v_i speed [m/s]; errors common to all points: gain
+///           g of the force, error dF of the parasitic loss that was subtracted [N], error dp of the pressure [Pa],
+///           gain G of the load, error dv of the speed [m/s]
+/// Validity  the law describes the tire; points without trend from one to the next. A constant zero of the force is in
+///           the parasitic loss as well and cancels. The coefficients a, b and c are not among the results: a is the
+///           force at 1 kPa, 1 N and standstill, far from every point, and all three move with the exponents
 /// Errors    InputError: no degree of freedom is left for the scatter
 /// Source    the equations of fit_j2452(). Uncertainties of the instruments are assumed, and marked so
 /// Checked   tests/estimation/rolling_uncertainty_test.cpp

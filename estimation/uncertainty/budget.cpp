@@ -4,6 +4,9 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "sim/core/interrupt.h"
 
@@ -33,21 +36,29 @@ void add_contribution(const UncertainInput& input, double move, std::vector<Cont
     return;
   }
   line->contribution = std::hypot(line->contribution, move);
-  line->sensitivity = 1.0;
-  line->input.value = 0.0;
-  line->input.standard_uncertainty = line->contribution;
+  line->is_group = true;
+  if (input.distribution == Distribution::kMultivariateT) line->input.distribution = input.distribution;
 }
 
 void combine_lines(UncertaintyBudget& budget) {
   double variance = 0.0;
-  double fourth = 0.0;
+  std::map<std::string, std::pair<double, double>> pools;  // variance, degrees of freedom
   for (const Contribution& line : budget.contributions) {
-    variance += line.contribution * line.contribution;
-    fourth += std::pow(line.contribution, 4) / line.input.degrees_freedom;
+    const double own = line.contribution * line.contribution;
+    variance += own;
+    auto& pool = pools
+                     .emplace(line.input.pool.empty() ? line.input.name : line.input.pool,
+                              std::pair(0.0, line.input.degrees_freedom))
+                     .first->second;
+    pool.first += own;
   }
+  double fourth = 0.0;
+  for (const auto& [name, pool] : pools) fourth += pool.first * pool.first / pool.second;
   budget.combined = std::sqrt(variance);
   budget.degrees_freedom = fourth > 0.0 ? variance * variance / fourth : std::numeric_limits<double>::infinity();
+  constexpr double kRounding = 1e-9;  // of the combined uncertainty
   for (Contribution& line : budget.contributions) {
+    if (line.contribution < kRounding * budget.combined) line.contribution = line.sensitivity = 0.0;
     line.share = variance > 0.0 ? line.contribution * line.contribution / variance : 0.0;
   }
   budget.coverage_factor = calc_coverage_factor(budget.degrees_freedom);
@@ -60,8 +71,7 @@ double calc_coverage_factor(double degrees_freedom) {
   constexpr double kUpper = 0.5 * (1.0 + kCoverage);
   constexpr double kMany = 1e6;  // beyond which t is the normal distribution to six digits
   if (degrees_freedom > kMany) return boost::math::quantile(boost::math::normal(), kUpper);
-  const double whole = std::max(1.0, std::floor(degrees_freedom));
-  return boost::math::quantile(boost::math::students_t(whole), kUpper);
+  return boost::math::quantile(boost::math::students_t(std::max(1.0, degrees_freedom)), kUpper);
 }
 
 std::vector<UncertaintyBudget> calc_budgets(const MeasurementModel& model, const std::function<void(double)>& advance) {

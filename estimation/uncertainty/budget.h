@@ -12,9 +12,10 @@ namespace rollrig::estimation {
 /// A line of a budget.
 struct Contribution {
   UncertainInput input;
-  double sensitivity = 0.0;   // dY/dX, SI; of several inputs on one line 1
+  double sensitivity = 0.0;   // dY/dX, SI
   double contribution = 0.0;  // |dY/dX| u(x), in the unit of the result, SI
   double share = 0.0;         // of the variance
+  bool is_group = false;      // several inputs of one name: they have no value, uncertainty and sensitivity in common
 };
 
 struct UncertaintyBudget {
@@ -31,7 +32,8 @@ struct UncertaintyBudget {
 /// its evaluation does.
 /// Equation  u^2(y) = sum c_i^2 u^2(x_i);  c_i u(x_i) = [f(x_i + u(x_i)) - f(x_i - u(x_i))] / 2
 ///           nu_eff = u^4(y) / sum (c_i u(x_i))^4 / nu_i;  U = t_0.975(nu_eff) u(y)
-/// Symbols   c_i sensitivity coefficient; nu degrees of freedom, nu_eff taken down to a whole number, at least 1
+/// Symbols   c_i sensitivity coefficient; nu degrees of freedom, nu_eff at least 1 and not rounded. Inputs of one pool
+///           have one nu_i, and count as one in the sum over nu
 /// Validity  inputs independent, f nearly linear over +-u: Monte Carlo shows whether it is
 /// Source    JCGM 100:2008 (GUM) 5.1.2, note 2 of 5.1.3, G.4.1, G.4.2
 /// Checked   tests/estimation/uncertainty_test.cpp

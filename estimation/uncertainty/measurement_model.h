@@ -15,9 +15,9 @@ enum class Evaluation { kTypeA, kTypeB };
 
 /// What is known of an input quantity. A rectangular distribution has the half-width sqrt(3) u. Student's t is that of
 /// the degrees of freedom, scaled by u, as GUM Supplement 1, 6.4.9 has it for a mean of repeated observations. The
-/// Student scale is sqrt(nu/chi2_nu) times the value: by how much an estimated standard deviation may be off
-/// (make_scatter_inputs).
-enum class Distribution { kNormal, kRectangular, kStudentT, kStudentScale };
+/// multivariate t is that of several errors with one estimated standard deviation; the input that has it is drawn as
+/// their scale factor sqrt(nu/chi2_nu) (make_scatter_inputs).
+enum class Distribution { kNormal, kRectangular, kStudentT, kMultivariateT };
 
 /// An input quantity of a measurement. Values are SI; the suffix of `key` is the unit in which they are shown.
 struct UncertainInput {
@@ -29,7 +29,8 @@ struct UncertainInput {
   Evaluation evaluation = Evaluation::kTypeB;
   double degrees_freedom = std::numeric_limits<double>::infinity();
   std::string source = {};      // where the uncertainty is from, as a sentence
-  bool is_from_limits = false;  // it is the accuracy that a standard asks for, and not one of this machine
+  std::string pool = {};        // inputs of one pool have their standard deviations from one estimate; empty: the name
+  bool is_from_limits = false;  // it is assumed, or the accuracy that a standard asks for: not known of this instrument
 };
 
 /// A result of the measurement. Its value is SI; `key` is that of the result in JSON.

@@ -24,7 +24,7 @@ double draw_input(const UncertainInput& input, RandomStream& random) {
   const double uniform = random.uniform();
   if (input.distribution == Distribution::kRectangular) return input.value + u * std::sqrt(3.0) * (2.0 * uniform - 1.0);
   const double probability = std::max(uniform, std::numeric_limits<double>::min());
-  if (input.distribution == Distribution::kStudentScale) {
+  if (input.distribution == Distribution::kMultivariateT) {
     const boost::math::chi_squared squares(input.degrees_freedom);
     return input.value * std::sqrt(input.degrees_freedom / boost::math::quantile(squares, probability));
   }
@@ -56,6 +56,7 @@ std::vector<double> evaluate_trials(const MeasurementModel& model, const Uncerta
           const std::vector<double> results = model.evaluate(drawn[i]);
           std::copy(results.begin(), results.end(), values.begin() + static_cast<std::ptrdiff_t>((first + i) * width));
         } catch (const RunFailure&) {
+        } catch (const InputError&) {  // a draw beyond what the evaluation takes
         }
       }
     };
@@ -80,7 +81,17 @@ double calc_end_sd(const std::vector<double>& sorted, double place, double proba
   return 0.5 * (find_value(sorted, place + step) - find_value(sorted, place - step));
 }
 
+/// Student's t has no mean with one degree of freedom, and no variance with two.
+void find_moments(const UncertaintyBudget& budget, MonteCarloResult& result) {
+  for (const Contribution& line : budget.contributions) {
+    if (line.contribution <= 0.0) continue;
+    result.has_mean = result.has_mean && line.input.degrees_freedom > 1.0;
+    result.has_sd = result.has_sd && line.input.degrees_freedom > 2.0;
+  }
+}
+
 void compare_with_budget(const UncertaintyBudget& budget, MonteCarloResult& result) {
+  find_moments(budget, result);
   result.tolerance = calc_numerical_tolerance(budget.combined);
   result.gum_low = budget.value - budget.expanded;
   result.gum_high = budget.value + budget.expanded;

@@ -20,7 +20,9 @@ struct MonteCarloResult {
   Measurand measurand;
   double mean = 0.0;
   double sd = 0.0;
-  double low = 0.0;  // interval of 95 %, 2.5 % of the trials beyond either end
+  bool has_mean = true;  // not where a contribution has one degree of freedom
+  bool has_sd = true;    // not where one has two or fewer
+  double low = 0.0;      // interval of 95 %, 2.5 % of the trials beyond either end
   double high = 0.0;
   double low_sd = 0.0;  // how well the ends are known from so many trials
   double high_sd = 0.0;

@@ -18,8 +18,9 @@ const char* distribution_name(Distribution distribution) {
     case Distribution::kRectangular:
       return "rectangular";
     case Distribution::kStudentT:
-    case Distribution::kStudentScale:
       return "Student's t";
+    case Distribution::kMultivariateT:
+      return "multivariate t";
     default:
       return "normal";
   }
@@ -30,13 +31,13 @@ Json contribution_to_json(const Contribution& line, const Unit& of_result) {
   const Unit unit = unit_of_key(input.key);
   return {{"name", input.name},
           {"key", input.key},
-          {"value", unit.from_si(input.value)},
-          {"standard_uncertainty", input.standard_uncertainty / unit.factor},
+          {"value", line.is_group ? Json(nullptr) : Json(unit.from_si(input.value))},
+          {"standard_uncertainty", line.is_group ? Json(nullptr) : Json(input.standard_uncertainty / unit.factor)},
           {"unit", unit.symbol},
           {"type", input.evaluation == Evaluation::kTypeA ? "A" : "B"},
           {"distribution", distribution_name(input.distribution)},
           {"degrees_of_freedom", finite_or_null(input.degrees_freedom)},
-          {"sensitivity", line.sensitivity * unit.factor / of_result.factor},
+          {"sensitivity", line.is_group ? Json(nullptr) : Json(line.sensitivity * unit.factor / of_result.factor)},
           {"contribution", line.contribution / of_result.factor},
           {"share_percent", 100.0 * line.share},
           {"assumed", input.is_from_limits},
@@ -62,8 +63,8 @@ Json monte_carlo_to_json(const MonteCarloResult& result) {
   return {{"name", result.measurand.name},
           {"key", result.measurand.key},
           {"unit", unit.symbol},
-          {"mean", unit.from_si(result.mean)},
-          {"standard_deviation", result.sd / unit.factor},
+          {"mean", result.has_mean ? Json(unit.from_si(result.mean)) : Json(nullptr)},
+          {"standard_deviation", result.has_sd ? Json(result.sd / unit.factor) : Json(nullptr)},
           {"low_95", unit.from_si(result.low)},
           {"high_95", unit.from_si(result.high)},
           {"low_95_sd", result.low_sd / unit.factor},
@@ -77,15 +78,26 @@ Json monte_carlo_to_json(const MonteCarloResult& result) {
           {"trials_wanted", result.trials_wanted}};
 }
 
-/// Six digits, as a person reads them.
 std::string show_short(const Json& value) {
-  return value.is_null() ? std::string("inf") : fmt::format("{:.4g}", value.get<double>());
+  return value.is_null() ? std::string("-") : fmt::format("{:.4g}", value.get<double>());
+}
+
+std::string with_unit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : number + " " + unit;
+}
+
+/// "5 million", or that no command makes so many.
+std::string show_trials(double trials) {
+  constexpr double kMillion = 1e6;
+  if (trials > kMostTrials) return fmt::format("more than the most possible, {:.0f} million", kMostTrials / kMillion);
+  return trials < kMillion ? fmt::format("{:.1g}", trials) : fmt::format("{:.1g} million", trials / kMillion);
 }
 
 Table make_budget_table(const Json& budget) {
   Table table;
-  table.title = fmt::format("Uncertainty of {} = {:.6g} {}", budget["key"].get<std::string>(),
-                            budget["value"].get<double>(), budget["unit"].get<std::string>());
+  table.title =
+      fmt::format("Uncertainty of {}: {}", budget["name"].get<std::string>(),
+                  with_unit(fmt::format("{:.6g}", budget["value"].get<double>()), budget["unit"].get<std::string>()));
   table.columns = {"input", "u(x)", "", "c u(x)", "share %"};
   for (const Json& line : budget["contributions"]) {
     table.rows.push_back({line["name"].get<std::string>() + (line["assumed"].get<bool>() ? " *" : ""),
@@ -93,19 +105,23 @@ Table make_budget_table(const Json& budget) {
                           fmt::format("{:.1f}", line["share_percent"].get<double>())});
   }
   table.rows.push_back({"combined", "", "", show_short(budget["combined_standard_uncertainty"]), "100.0"});
-  table.rows.push_back({fmt::format("expanded, k = {:.2f}", budget["coverage_factor"].get<double>()), "", "",
+  table.rows.push_back({fmt::format("expanded (95 %), k = {:.2f}", budget["coverage_factor"].get<double>()), "", "",
                         show_short(budget["expanded_uncertainty"]), ""});
   return table;
 }
 
 Table make_monte_carlo_table(const Json& json) {
   Table table;
-  table.title = fmt::format("Monte Carlo beside the GUM, {} trials, seed {}", json["trials"].get<int>(),
-                            json["seed"].get<std::uint64_t>());
-  table.columns = {"result", "", "mean", "sd", "95 % from", "to", "GUM"};
+  const int failed = json["failed_trials"].get<int>();
+  table.title =
+      fmt::format("Monte Carlo beside the GUM, {} trials{}, seed {}", json["trials"].get<int>(),
+                  failed > 0 ? fmt::format(" ({} failed, left out)", failed) : "", json["seed"].get<std::uint64_t>());
+  table.columns = {"result", "", "mean", "sd", "95 % from", "to", "GUM interval"};
   for (const Json& result : json["results"]) {
-    const auto digits = [&result](const char* key) { return fmt::format("{:.5g}", result[key].get<double>()); };
-    table.rows.push_back({result["key"], result["unit"], digits("mean"), show_short(result["standard_deviation"]),
+    const auto digits = [&result](const char* key) {
+      return result[key].is_null() ? std::string("-") : fmt::format("{:.5g}", result[key].get<double>());
+    };
+    table.rows.push_back({result["name"], result["unit"], digits("mean"), show_short(result["standard_deviation"]),
                           digits("low_95"), digits("high_95"), result["gum"]});
   }
   return table;
@@ -116,19 +132,39 @@ Table make_remarks(const Json& json) {
   for (const Json& budget : json["budgets"]) {
     for (const Json& line : budget["contributions"]) {
       if (!line["assumed"].get<bool>()) continue;
-      table.rows = {{"*", "assumed: no file gives the uncertainty of this machine's instrument"}};
+      table.rows = {{"*",
+                     "assumed, or the accuracy that a regulation asks for: put the figures of your instruments' "
+                     "certificates in its place"}};
     }
+  }
+  for (const Json& budget : json["budgets"]) {
+    const std::string doubt = doubt_budget(budget);
+    if (!doubt.empty()) table.rows.push_back({budget["name"], doubt});
   }
   for (const Json& text : json["not_included"]) table.rows.push_back({"not included", text});
   if (json.contains("monte_carlo")) {
     for (const Json& result : json["monte_carlo"]["results"]) {
-      table.rows.push_back({result["key"], describe_verdict(result)});
+      table.rows.push_back({result["name"], describe_verdict(result)});
     }
   }
   return table;
 }
 
 }  // namespace
+
+std::string doubt_budget(const Json& budget) {
+  for (const Json& line : budget["contributions"]) {
+    if (line["degrees_of_freedom"].is_null()) continue;
+    const double alone =
+        calc_coverage_factor(line["degrees_of_freedom"].get<double>()) * line["contribution"].get<double>();
+    if (alone <= budget["expanded_uncertainty"].get<double>() * 1.0001) continue;
+    return fmt::format(
+        "the expanded uncertainty is smaller than that of one input alone ({}, {:.3g} degrees of freedom): too few for "
+        "the equation of Welch and Satterthwaite; use the interval of Monte Carlo",
+        line["name"].get<std::string>(), line["degrees_of_freedom"].get<double>());
+  }
+  return "";
+}
 
 const char* name_of(GumVerdict verdict) {
   switch (verdict) {
@@ -144,12 +180,14 @@ const char* name_of(GumVerdict verdict) {
 std::string describe_verdict(const Json& result) {
   const std::string unit = result["unit"].get<std::string>();
   const double most = std::max(result["gum_low_difference"].get<double>(), result["gum_high_difference"].get<double>());
-  const std::string ends = fmt::format("the ends of the two intervals differ by up to {:.2g} {}, tolerance {:.2g} {}",
-                                       most, unit, result["gum_tolerance"].get<double>(), unit);
+  const std::string ends = fmt::format("the ends of the two intervals differ by up to {} (tolerance {})",
+                                       with_unit(fmt::format("{:.2g}", most), unit),
+                                       with_unit(fmt::format("{:.2g}", result["gum_tolerance"].get<double>()), unit));
   const std::string verdict = result["gum"].get<std::string>();
-  if (verdict == "agrees") return "the GUM holds: " + ends;
-  if (verdict == "differs") return "the GUM does not hold, use the interval of Monte Carlo: " + ends;
-  return fmt::format("not decided: {}; about {:.1g} trials would tell", ends, result["trials_wanted"].get<double>());
+  if (verdict == "agrees") return "the interval of the GUM is validated: " + ends;
+  if (verdict == "differs") return "the interval of the GUM is not validated, use that of Monte Carlo: " + ends;
+  return fmt::format("not decided: {}; trials that would tell: {}", ends,
+                     show_trials(result["trials_wanted"].get<double>()));
 }
 
 Uncertainty calc_uncertainty(const MeasurementModel& model, const UncertaintyRequest& request,

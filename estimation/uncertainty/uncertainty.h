@@ -29,6 +29,9 @@ Json make_uncertainty_json(const Uncertainty& uncertainty);
 /// The same for the terminal: the budgets, then Monte Carlo beside the GUM.
 std::vector<Table> make_uncertainty_tables(const Uncertainty& uncertainty);
 
+/// Where a budget, as in the JSON, states less than one of its inputs alone would: why it does. Else empty.
+std::string doubt_budget(const Json& budget);
+
 /// "agrees", "differs", "not decided".
 const char* name_of(GumVerdict verdict);
 /// What they say of a result, as a sentence, with the number of trials that would decide it.

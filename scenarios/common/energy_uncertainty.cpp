@@ -8,14 +8,14 @@
 #include <cmath>
 #include <memory>
 
-#include "estimation/uncertainty/usual_inputs.h"
+#include "estimation/uncertainty/common_inputs.h"
 #include "scenarios/run/run_spec.h"
 #include "scenarios/run/tire_validity.h"
 
 namespace rollrig::scenarios {
 namespace {
 
-using estimation::make_assumed_limit;
+using estimation::make_assumed_input;
 using estimation::MeasurementModel;
 using estimation::UncertainInput;
 
@@ -82,8 +82,9 @@ void set_number(RunSpec& spec, const std::string& key, double value_SI) {
 
 /// What is measured in a test with sections, SI.
 struct MeasuredEnergies {
-  double battery_J = 0.0;  // of all sections
-  double rolling_J = 0.0;  // of all tires and sections
+  bool is_usable_given = false;  // by the vehicle file, and not by the meter
+  double battery_J = 0.0;        // of all sections
+  double rolling_J = 0.0;        // of all tires and sections
   struct Cycle {
     double consumption_J_per_m = 0.0;
     double range_m = 0.0;
@@ -95,6 +96,7 @@ double find_SI(const Json& of, const char* key) { return unit_of_key(key).to_si(
 
 MeasuredEnergies find_energies(const Json& result) {
   MeasuredEnergies found;
+  found.is_usable_given = result.value("usable_energy_from", "") == "battery";
   for (const Json& section : result["sections"]) {
     found.battery_J += find_SI(section, "battery_energy_Wh");
     found.rolling_J += find_SI(section, "vehicle_rr_energy_Wh");
@@ -103,16 +105,6 @@ MeasuredEnergies find_energies(const Json& result) {
     found.cycles.push_back({find_SI(cycle, "dc_consumption_Wh_per_km"), find_SI(cycle, "range_km")});
   }
   return found;
-}
-
-/// As find_energies(). Settings at which the test cannot be done, such as a battery that is empty too soon, are a
-/// failed trial.
-MeasuredEnergies simulate_energies(const RunSpec& spec) {
-  try {
-    return find_energies(run_scenario(spec, {}).result);
-  } catch (const InputError& error) {
-    throw RunFailure(error.what());
-  }
 }
 
 }  // namespace
@@ -132,10 +124,10 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
   const auto setting = [&settings](const char* key) { return unit_of_key(key).to_si(settings[key].get<double>()); };
   const double mass_kg = spec.vehicle->body.mass_kg;
   model.inputs = {
-      make_assumed_limit("gain of the energy meter", "gain", 1.0, kMeterGainLimit, "1 %"),
-      make_assumed_limit("test mass", "mass_kg", mass_kg, kTestMassLimit * mass_kg, "0.2 % of the mass"),
-      make_assumed_limit("air temperature", "ambient_degC", setting("ambient_degC"), kTestAmbientLimit_K, "1 degC"),
-      make_assumed_limit("tire pressure, cold", "pressure_kPa", setting("pressure_kPa"), kTestPressureLimit_Pa,
+      make_assumed_input("gain of the energy meter", "gain_percent", 1.0, kMeterGainLimit, "1 %"),
+      make_assumed_input("test mass", "mass_kg", mass_kg, kTestMassLimit * mass_kg, "0.2 % of the mass"),
+      make_assumed_input("air temperature", "ambient_degC", setting("ambient_degC"), kTestAmbientLimit_K, "1 degC"),
+      make_assumed_input("tire pressure, cold", "pressure_kPa", setting("pressure_kPa"), kTestPressureLimit_Pa,
                          "3 kPa")};
   const auto numbers = std::make_shared<const TireNumbers>(TireNumbers::of(spec.tire));
   for (std::size_t i = 0; i < numbers->keys.size(); ++i) {
@@ -145,8 +137,9 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
   }
   if (numbers->keys.empty()) model.left_out.push_back("the loss of the tire: its file gives no uncertainty");
   if (spec.vehicle->battery.has_value()) {
+    model.left_out.push_back("consumption of alternating current, MPGe, label values: they follow from these results");
     model.left_out.push_back(
-        "the usable energy of the battery, which the vehicle file gives as a number, for the ranges");
+        "ranges: the usable battery energy, which is taken from the vehicle file without an uncertainty");
   }
   model.left_out.push_back("the setting of the dynamometer, the efficiency of the powertrain, how the driver follows");
   model.evaluate = [&spec, numbers](const std::vector<double>& x) {
@@ -158,12 +151,12 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
     set_number(own, "pressure_kPa", x[energy_input::kPressure]);
     const auto count = static_cast<Eigen::Index>(numbers->keys.size());
     numbers->move(Eigen::Map<const Eigen::VectorXd>(x.data() + energy_input::kTire, count), own.tire);
-    const MeasuredEnergies energies = simulate_energies(own);
+    const MeasuredEnergies energies = find_energies(run_scenario(own, {}).result);
     std::vector<double> results{x[energy_input::kMeter] * energies.battery_J};
     if (has_tire_loss(own)) results.push_back(energies.rolling_J);
     for (const MeasuredEnergies::Cycle& cycle : energies.cycles) {
       results.push_back(x[energy_input::kMeter] * cycle.consumption_J_per_m);
-      results.push_back(cycle.range_m);
+      results.push_back(energies.is_usable_given ? cycle.range_m / x[energy_input::kMeter] : cycle.range_m);
     }
     return results;
   };

@@ -9,14 +9,14 @@
 
 namespace rollrig::scenarios {
 
-/// Energy of the battery and of rolling resistance, over all sections of result.json; in the order of SAE J1634 also
-/// consumption and range of the `cycles` (city, highway, combined). Each evaluation simulates the test again,
+/// Energy of the battery and of rolling resistance, over all sections of result.json; of a multi-cycle test of SAE J1634
+/// also consumption and range of the `cycles` (city, highway, combined). Each evaluation simulates the test again,
 /// quasi-static and without sensors.
 /// Equation  E = g E_sim(mass, T_amb, p, x_0 + S L z)
-/// Symbols   g gain of the energy meter, for the battery and the consumption; a range has none, since one meter
-///           measures the usable energy and the consumption; x numbers of the tire file with a standard uncertainty,
-///           S these uncertainties, L L^T their correlation, z independent inputs of standard deviation 1, T_amb and p
-///           air temperature and pressure of the tires
+/// Symbols   g gain of the energy meter, for the battery and the consumption; a range is over 1/g where the
+///           vehicle file gives the usable energy, and without g where the sections, by the same meter, give it; x
+///           numbers of the tire file with a standard uncertainty, S these uncertainties, L L^T their correlation, z
+///           independent inputs of standard deviation 1, T_amb and p air temperature and pressure of the tires
 /// Validity  one tire file for all axles that are varied; the setting of the dynamometer stays as it is
 /// Source    uncertainties of the tire file; others are assumed, and marked so
 /// Checked   tests/scenarios/energy_uncertainty_test.cpp

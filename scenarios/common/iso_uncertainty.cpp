@@ -78,9 +78,14 @@ class IsoResponse {
   double by_speed_ = 0.0, by_speed_2_ = 0.0, by_pressure_ = 0.0, by_pressure_2_ = 0.0, by_both_ = 0.0;
 };
 
+/// Whether each cycle has its rolling resistance by the method.
+bool is_in_cycles(const std::string& method) { return method == kTorqueMethod || method == kForceMethod; }
+
 /// Whether the scatter of the cycles stands for noise and drift of the sensor.
-bool has_scatter(const RunSpec& spec, const std::vector<Cycle>& cycles) {
-  return spec.sensors.has_value() && cycles.size() > kFewestCycles;
+bool has_scatter(const RunSpec& spec, const std::string& method, const std::vector<Cycle>& cycles) {
+  const Quantity& channel = method == kForceMethod ? quantities::kSpindleForce : spec.rig.kind->traits.force;
+  return is_in_cycles(method) && spec.sensors.has_value() && spec.sensors->count(channel) > 0 &&
+         cycles.size() > kFewestCycles;
 }
 
 struct ScatterOfCycles {
@@ -94,11 +99,11 @@ struct ScatterOfCycles {
 /// Validity  a trend that is small from cycle to cycle; normal errors
 /// Source    mean square successive difference, von Neumann et al., Annals of Mathematical Statistics 12 (1941) 153; not
 ///           read. The degrees of freedom: twice its squared mean over its variance
-ScatterOfCycles calc_scatter(const std::vector<Cycle>& cycles) {
+ScatterOfCycles calc_scatter(const std::vector<Cycle>& cycles, double Cycle::*resistance_N) {
   const auto n = static_cast<double>(cycles.size() - 1);
   double squares = 0.0;
   for (std::size_t i = 2; i < cycles.size(); ++i) {
-    squares += std::pow(cycles[i].rolling_resistance_N - cycles[i - 1].rolling_resistance_N, 2);
+    squares += std::pow(cycles[i].*resistance_N - cycles[i - 1].*resistance_N, 2);
   }
   return {std::sqrt(squares / (2.0 * (n - 1.0))), 2.0 * (n - 1.0) * (n - 1.0) / (3.0 * n - 4.0)};
 }
@@ -130,8 +135,9 @@ std::string find_reading_key(const RunSpec& spec, const std::string& method) {
   return spec.rig.kind->traits.force.header();
 }
 
-/// The error of one deceleration, as if the loaded one had all of it.
+/// Standard deviation of the two decelerations, referred to the loaded one.
 /// Equation  s^2 = s_t^2 + (c_s/c_t)^2 s_s^2
+/// Symbols   s_t, s_s standard deviation of the loaded deceleration and of that in skim; c mass at the surface
 UncertainInput make_deceleration_input(const RunSpec& spec, const Cycle& cycle, const MethodReadings& readings) {
   const double mass_ratio =
       calc_coasting_mass_kg(spec, cycle.skim.load_N) / calc_coasting_mass_kg(spec, cycle.loaded.load_N);
@@ -149,7 +155,7 @@ UncertainInput make_reading_input(const RunSpec& spec, const std::vector<Cycle>&
   if (readings.method == kDecelerationMethod) return make_deceleration_input(spec, cycle, readings);
   UncertainInput input{"noise and drift, load minus skim", find_reading_key(spec, readings.method),
                        readings.loaded - readings.skim};
-  if (readings.method != kTorqueMethod || !has_scatter(spec, cycles)) {
+  if (!has_scatter(spec, readings.method, cycles)) {
     const MethodSensor at = find_method_sensor(spec, readings.method, cycle.loaded.speed_m_s);
     input.standard_uncertainty =
         std::sqrt(models::calc_difference_variance(at.sensor, cycle.loaded.samples, spec.sample_interval_s,
@@ -158,9 +164,14 @@ UncertainInput make_reading_input(const RunSpec& spec, const std::vector<Cycle>&
     input.is_from_limits = at.is_assumed;
     return input;
   }
-  const ScatterOfCycles scatter = calc_scatter(cycles);
+  const bool is_force = readings.method == kForceMethod;
+  const ScatterOfCycles scatter =
+      calc_scatter(cycles, is_force ? &Cycle::force_method_N : &Cycle::rolling_resistance_N);
+  const double loaded_radius_m = calc_loaded_radius_m(spec.tire.values, cycle.loaded.load_N);
+  const double per_reading =
+      is_force ? models::calc_rolling_ratio(loaded_radius_m, spec.rig.curvature_per_m()) : 1.0 / spec.rig.lever_m();
   input.name = "repeatability, cycle to cycle";
-  input.standard_uncertainty = spec.rig.lever_m() * scatter.sd_N;
+  input.standard_uncertainty = scatter.sd_N / per_reading;
   input.degrees_freedom = scatter.degrees_of_freedom;
   input.evaluation = Evaluation::kTypeA;
   input.distribution = Distribution::kStudentT;
@@ -262,7 +273,9 @@ class MethodForce {
       const double shown_N = reading + at.load_N * std::sin(x[iso_input::kOfMethod]);
       return shown_N * models::calc_rolling_ratio(find_radius_m(at), is_drum_ ? 1.0 / lever_m : 0.0);
     }
-    if (readings_.method == kPowerMethod) return reading / (at.speed_m_s * x[iso_input::kSpeed] / speed_m_s_);
+    if (readings_.method == kPowerMethod) {  // the speed is that of the shaft times the radius
+      return reading / (at.speed_m_s * x[iso_input::kSpeed] / speed_m_s_ * lever_m / spec_.rig.lever_m());
+    }
     if (readings_.method == kDecelerationMethod) return calc_deceleration_force_N(at, reading, lever_m, x);
     return reading / lever_m;
   }
@@ -304,10 +317,19 @@ MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& c
   model.measurands = {{"RRc at 25 degC, 2 m drum", "rrc_25degC_2m_N_per_kN"}, {"RRc as measured" + by, "rrc_N_per_kN"}};
   model.inputs = make_iso_inputs(spec, cycles, readings, pressure_Pa, accuracies);
   model.left_out = {"mounting of the tire, and how the test repeats from day to day: this is one test"};
-  if (readings.method == kTorqueMethod && !has_scatter(spec, cycles)) {
+  if (!is_in_cycles(readings.method)) {
+    model.left_out.push_back("repeatability from cycle to cycle: the method is evaluated in the last cycle alone");
+  } else if (!has_scatter(spec, readings.method, cycles)) {
     model.left_out.push_back(fmt::format(
-        "repeatability from cycle to cycle: it takes measurement_cycles = {} or more, with sensors", kFewestCycles));
+        "repeatability from cycle to cycle: it takes measurement_cycles = {} or more, with a sensor of the {}",
+        kFewestCycles, readings.method));
   }
+  const bool is_coast = readings.method == kDecelerationMethod;
+  if (is_coast || readings.method == kForceMethod) model.left_out.push_back("the loaded radius of the tire");
+  if (is_coast && (!spec.sensors.has_value() || spec.sensors->count(quantities::kSpeed) == 0)) {
+    model.left_out.push_back("noise of the speed: the run has no sensor of the speed");
+  }
+  if (is_coast) model.left_out.push_back("the bias of the method, up to 0.3 % of the rolling resistance");
   if (readings.method == kPowerMethod) {
     model.left_out.push_back("losses of the motor that are not the same loaded and in the skim test");
   }

@@ -25,12 +25,10 @@ struct IsoAccuracies {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(
-        Field{
-            "gain_accuracy_percent", between(0.0, 50.0),
-            "For the uncertainty budget: +- of the gain of torque, force or power; of the deceleration method of speed "
-            "over time. Default: 0.5, of speed over time 0.1, assumed"},
-        p.gain);
+    visit(Field{"gain_accuracy_percent", between(0.0, 50.0),
+                "Half-width of the gain error of torque, force or power (default 0.5, assumed) or, of the deceleration "
+                "method, of dv/dt (default 0.1, assumed)"},
+          p.gain);
     visit(Field{"load_accuracy_percent", between(0.0, 50.0), "Likewise of the load. Default: 0.5, assumed"}, p.load);
     visit(Field{"drum_diameter_accuracy_m", between(0.0, 1.0), "Likewise. Default: 0.001, assumed"}, p.drum_diameter_m);
     visit(Field{"ambient_accuracy_K", between(0.0, 20.0), "Likewise of the air temperature. Default: 0.2, assumed"},
@@ -53,15 +51,18 @@ using IsoSimulation = std::function<double(double speed_m_s, double pressure_Pa)
 
 /// RRc of the last cycle by the method of the readings, corrected to 25 degC and the 2 m drum, as correct_rrc() has it,
 /// and RRc as measured.
-/// Equation  RRc = (1 + g) [c_t (X_t + e + o) - c_s (X_s + o)] r(v, p) / L K_r(R) (1 + K_t (T_amb - 25 degC));
-///           torque: c = 1/R; force: c = 1 + r/R, X = F_t + L sin d; power: c = 1/v; deceleration: c = I_D/R^2 +
-///           I_T/r^2
-/// Symbols   X_t, X_s readings, loaded and in the skim test: torque (of a belt force, R = 1), force of the spindle, power,
-///           deceleration; c_t, c_s what makes them a force; o their common offset, which cancels where both c are
-///           equal; g relative error of their gain; e error of their difference from noise, drift and resolution, or
-///           from cycle to cycle; d angle of the force cell to the load; L reading of the load; R = D/2 radius of the
-///           drum; r loaded radius; I_D, I_T inertias of drum, and of tire and wheel, with one relative error; r(v, p)
-///           = F_r(v, p) / F_r(v_0, p_0), by simulation in second order; K_r, K_t of correct_rrc()
+/// Equation  RRc = F_r/L K_r(R) (1 + K_t (T_amb - 25 degC)),  F_r = (1 + g) [c_t (X_t + e + o) - c_s (X_s + o)] q(v, p);
+///           torque        c = 1/R
+///           force         c = 1 + r/R, and L sin d is added to X
+///           power         c = 1/v, v in proportion to R
+///           deceleration  c = (1 + i) (I_D/R^2 + I_T/r^2) R/R_0
+/// Symbols   indices t, s: loaded and in the skim test; X reading: torque [Nm], of a belt force [N] with R = 1, force of
+///           the spindle [N], power [W], deceleration [m/s2]; o zero of both readings, which cancels where c_t = c_s; g
+///           relative error of their gain; e error of their difference from noise, drift and resolution, or from cycle
+///           to cycle; L load [N]; v speed [m/s]; R radius of the drum [m], R_0 that of the rig's file, by which a
+///           speed was found; r loaded radius [m]; d angle of the force cell to the load [rad]; I_D, I_T inertias of
+///           drum, and of tire and wheel [kg m2], i their relative error; q(v, p) = F_r(v, p)/F_r(v_0, p_0), by
+///           simulation in second order; K_r, K_t of correct_rrc()
 /// Validity  errors of instruments, not of the procedure: a tire that is not warm is in `unsettled`
 /// Source    the equations of readings.h. Uncertainties: `accuracies`, sensors of the run, else usual ones of the
 ///           machine, else "Assumed", which the budget marks

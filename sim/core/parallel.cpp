@@ -1,8 +1,10 @@
 #include "sim/core/parallel.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
@@ -76,7 +78,8 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   if (is_at_work && threads != 1) {
     tbb::this_task_arena::isolate(share_out);  // else a thread that waits for its part would begin with another's
   } else {
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    const int cores = tbb::info::default_concurrency();  // TBB warns of more threads than it has
+    tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : tbb::task_arena::automatic);
     arena.execute(share_out);
   }
   finished.acquire();

@@ -17,7 +17,9 @@ AlignmentResult make_line_result(double candidate_sd, double residual) {
   std::vector<double> y;
   for (std::size_t i = 0; i < x.size(); ++i) y.push_back(0.93 * x[i] + 0.35 + residual * pattern[i]);
   AlignmentResult result;
-  result.fit = fit_line(x, y, {candidate_sd, 0.0, 10.0});
+  const double reference_sd = candidate_sd;  // of the same kind, so that both have half of the repeats' freedom
+  result.fit = fit_line(x, y, {candidate_sd, reference_sd, 20.0});
+  result.sigma_l = ScatterEstimate{reference_sd * std::sqrt(3.0), 10.0, 0.0, 0.0};
   result.sigma_m = {candidate_sd * std::sqrt(3.0), 10.0, 0.0, 0.0};
   AlignmentLine& line = result.line;
   line.A1 = 1.04;
@@ -45,6 +47,11 @@ TEST_CASE("the budget of a line is that of its closed forms", "[fast]") {
     INFO("residuals of " << residual);
     CHECK(budgets[0].value == Approx(result.fit.slope));
     CHECK(budgets[0].combined == Approx(result.fit.slope_sd()).epsilon(0.01));
+    // also the interval that is stated beside it: where the residuals decide, it is a little wider
+    const double stated = result.fit.coverage_factor() * result.fit.slope_sd();
+    CHECK(budgets[0].expanded > 0.98 * stated);
+    CHECK(budgets[0].expanded < 1.4 * stated);
+    if (result.fit.residual_sd < result.fit.repeat_sd) CHECK(budgets[0].expanded < 1.02 * stated);
     CHECK(budgets[1].combined == Approx(1e-3 * result.fit.offset_sd()).epsilon(0.01));
     for (const auto& [i, x] : {std::pair(2, 6.5), {3, 8.6}, {4, 10.7}}) {
       const UncertainValue aligned = align_value(result.line, x, 1);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -137,6 +138,26 @@ TEST_CASE("SAE J1263: two coefficients, with the mean wind", "[fast]") {
   CHECK(procedure.road_load(0) == Approx(130.0).epsilon(0.01));
   CHECK(procedure.road_load(1) == 0.0);
   CHECK(procedure.road_load(2) / 12.96 == Approx(0.031).epsilon(0.005));
+}
+
+TEST_CASE("SAE J1263: where the loss has a part in proportion to speed, two coefficients stand for it", "[fast]") {
+  // A + B v + C v^2 over even speeds from 10 to 140 km/h, by the line a + c v^2 nearest to it
+  ProcedureStudy study = make_calm_study();
+  study.noise_sd_m_s = 0.02;
+  study.run_force_sd_N = 2.0;
+  REQUIRE(study.load.B_N_s_per_m > 2.0);
+  const RoadLoadProcedure procedure = evaluate_study(study, RoadLoadProcedureKind::kJ1263);
+  double worst = 0.0;
+  double sum_N = 0.0;
+  int count = 0;
+  for (double km_h = 20.0; km_h <= 130.0; km_h += 10.0, ++count) {
+    const double v = km_h / 3.6;
+    const double truth_N = study.load.A_N + v * (study.load.B_N_s_per_m + v * study.load.C_N_s2_per_m2);
+    worst = std::max(worst, std::abs(procedure.force_N(v) / truth_N - 1.0));
+    sum_N += procedure.force_N(v) - truth_N;
+  }
+  CHECK(worst < 0.06);                   // two coefficients do not follow three everywhere
+  CHECK(std::abs(sum_N / count) < 5.0);  // but lie amid them
 }
 
 TEST_CASE("SAE J2263: what is wrong with a test is said", "[fast]") {

@@ -74,9 +74,11 @@ TEST_CASE("reference conditions: what sensors do to the coefficients", "[fast]")
   CHECK(change_by(tested, "air temperature")(0) == Approx(0.0086 * (120.0 - 0.42 * 4.0) / root3));
   CHECK(change_by(tested, "air pressure")(0) == Approx(0.0));
   CHECK(change_by(tested, "air pressure")(2) == Approx(-0.42 * 0.003 / root3).epsilon(0.01));
-  CHECK(change_by(tested, "wind speed")(0) == Approx(-0.42 * (2.3 * 2.3 - 4.0) / root3));
+  CHECK(change_by(tested, "wind speed")(0) == Approx(-0.42 * 2.0 * 2.0 * 0.3 / root3));
   CHECK(change_by(tested, "mass")(1) == Approx(1.8 * 10.0 / 1800.0 / root3));
+  CHECK(change_by(tested, "mass")(0) == Approx((120.0 - 0.42 * 4.0) * 10.0 / 1800.0 / root3).epsilon(1e-3));
   // the force at the mass to which it is corrected does not depend on the scale
+  tested.has_mass_correction = true;
   CHECK(change_by(tested, "mass")(0) == Approx(-0.42 * 4.0 * 10.0 / 1800.0 / root3).epsilon(0.02));
   tested.in_proportion_to_mass = false;
   CHECK(change_by(tested, "mass")(1) == Approx(0.0));
@@ -88,9 +90,10 @@ TEST_CASE("reference conditions: a speed that reads high moves the curve along, 
   tested.correction = make_correction();
   const double e = 0.2 / 3.6;
   const Eigen::Vector3d moved = kMeasured + std::sqrt(3.0) * change_by(tested, "vehicle speed");
-  for (const double v : {5.0, 20.0, 35.0}) {  // the force at v is what was read at v - e
-    const double read_N = kMeasured(0) + (v - e) * (kMeasured(1) + (v - e) * kMeasured(2));
-    CHECK(moved(0) + v * (moved(1) + v * moved(2)) == Approx(read_N));
+  for (const double v : {5.0, 20.0, 35.0}) {  // half the difference of the curves read e too low and e too high
+    const auto force_N = [](double u) { return kMeasured(0) + u * (kMeasured(1) + u * kMeasured(2)); };
+    const double change_N = 0.5 * (force_N(v - e) - force_N(v + e));
+    CHECK((moved - kMeasured).dot(Eigen::Vector3d(1.0, v, v * v)) == Approx(change_N));
   }
 }
 
@@ -107,7 +110,10 @@ TEST_CASE("reference conditions: a torque meter adds to the force by the radius,
   CHECK(change_by(tested, "wheel torque")(0) == Approx(10.0 * 1.02 / 0.33 / root3));
   const double without = change_by(tested, "vehicle speed")(2);
   CHECK(without == Approx(0.0).margin(1e-12));
-  tested.turns_at_radius_Hz = 10.5;  // a wheel that is read to turn faster is smaller, so that the force is larger
+  tested.wheel_speed_Hz = 10.5;  // a wheel that is read to turn faster is smaller, so that the force is larger
+  tested.radius_speed_m_s = 80.0 / 3.6;
   CHECK(change_by(tested, "wheel speed")(2) == Approx(0.42 * 1.02 / 0.33 * 0.05 / 10.5 / root3));
-  CHECK(change_by(tested, "vehicle speed")(2) == Approx(-0.42 * 1.02 / 0.33 * 0.2 / 80.2 / root3));
+  CHECK(change_by(tested, "vehicle speed")(2) == Approx(-0.42 * 1.02 / 0.33 * 0.2 / 80.0 / root3).epsilon(1e-4));
+  tested.radius_speed_m_s = 40.0 / 3.6;  // found at half the speed, the same error weighs twice
+  CHECK(change_by(tested, "vehicle speed")(2) == Approx(-0.42 * 1.02 / 0.33 * 0.2 / 40.0 / root3).epsilon(1e-4));
 }

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "estimation/road_load/procedure_uncertainty.h"
 #include "estimation/road_load/road_load_procedure.h"
+#include "estimation/uncertainty/budget.h"
 #include "sim/core/csv.h"
 #include "sim/core/random.h"
 #include "tests/support/run_program.h"
@@ -20,6 +23,9 @@ struct TorqueStudy {
   double pair_sd = 0.0;      // relative, from run to run
   double speed_scale = 1.0;  // 1/1.609344: speeds in mph
   bool second_vehicle = false;
+  double torque_error_Nm = 0.0;
+  double wheel_speed_error_Hz = 0.0;
+  double speed_error_km_h = 0.0;
 };
 
 constexpr double kRadius_m = 0.32;
@@ -45,9 +51,9 @@ std::string write_torques(const TorqueStudy& study, bool with_times = true) {
         const double torque = scale * (kTorque[0] + kTorque[1] * v + kTorque[2] * air * air) +
                               (kMass_kg + 48.0) * study.drift_m_s2 * kRadius_m;
         csv.add(static_cast<double>(reference));
-        csv.add(3.6 * v * study.speed_scale);
-        csv.add(torque);
-        csv.add(v / (2.0 * 3.14159265358979 * kRadius_m));
+        csv.add(3.6 * v * study.speed_scale + study.speed_error_km_h);
+        csv.add(torque + study.torque_error_Nm);
+        csv.add(v / (2.0 * 3.14159265358979 * kRadius_m) + study.wheel_speed_error_Hz);
         csv.add(std::to_string(run + 1));
         csv.add(std::string(heading > 0 ? "+" : "-"));
         csv.add(20.0);
@@ -94,6 +100,37 @@ TEST_CASE("torque meter: a drift of the speed is taken out of the torque", "[fas
   const RoadLoadProcedure means = evaluate_torques(write_torques(study, false));
   CHECK(means.corrected(0) == Approx(kTorque[0] - 10.55).margin(0.2));
   CHECK_THAT(means.warnings.front() + means.warnings.back(), Contains("not corrected for a drift"));
+}
+
+TEST_CASE("torque meter: sensors that are off move the road load as the budget says", "[fast]") {
+  TorqueStudy study;
+  study.pairs = 4;
+  study.pair_sd = 0.005;
+  const RoadLoadProcedure before = evaluate_torques(write_torques(study));
+  const auto budgets = calc_budgets(make_procedure_model(before));
+  const auto check = [&](const std::string& name, const TorqueStudy& moved, double sds) {
+    const RoadLoadProcedure after = evaluate_torques(write_torques(moved));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& lines = budgets[i].contributions;
+      const auto line =
+          std::find_if(lines.begin(), lines.end(), [&](const auto& one) { return one.input.name == name; });
+      REQUIRE(line != lines.end());
+      INFO(name << ", f" << i);
+      const double change = after.road_load(static_cast<int>(i)) - before.road_load(static_cast<int>(i));
+      CHECK(std::abs(change) ==
+            Approx(sds * line->contribution).epsilon(0.05).margin(2e-4 * std::abs(budgets[i].value)));
+    }
+  };
+  const double root3 = std::sqrt(3.0);
+  TorqueStudy moved = study;
+  moved.torque_error_Nm = 3.0;
+  check("wheel torque", moved, 3.0 / 6.0 * root3);
+  moved = study;
+  moved.wheel_speed_error_Hz = 0.1;
+  check("wheel speed", moved, 0.1 / 0.05 * root3);
+  moved = study;
+  moved.speed_error_km_h = 0.4;
+  check("vehicle speed", moved, 0.4 / 0.2 * root3);
 }
 
 TEST_CASE("torque meter: precision, and what is wrong with a test", "[fast]") {

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "estimation/uncertainty/common_inputs.h"
+#include "estimation/uncertainty/covariance_root.h"
 #include "estimation/uncertainty/uncertainty.h"
-#include "estimation/uncertainty/usual_inputs.h"
 #include "include/rollrig/error.h"
 
 using namespace rollrig;

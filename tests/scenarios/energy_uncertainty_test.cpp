@@ -36,12 +36,19 @@ TEST_CASE("the energies of the budget are those of the result, and move as in si
     CHECK(now[2 + 2 * i] / 3.6 == Approx(cycle["dc_consumption_Wh_per_km"].get<double>()).epsilon(1e-9));
     CHECK(now[3 + 2 * i] / 1e3 == Approx(cycle["range_km"].get<double>()).epsilon(1e-9));
   }
-  // One meter measures the usable energy and the consumption: its gain has no part in a range.
+  // The sections give the usable energy here, by the same meter: its gain has no part in a range.
   std::vector<double> gained = x;
   gained[0] = 1.01;
   const std::vector<double> read = model.evaluate(gained);
   CHECK(read[6] == Approx(1.01 * now[6]));
   CHECK(read[7] == Approx(now[7]));
+  scenarios::RunSpec with_battery = tests::make_spec("sae_j1634", "a50", {"mid_min=5", "end_min=5"}, "quasi_static");
+  with_battery.vehicle->battery = rigs::VehicleBattery{};
+  with_battery.vehicle->battery->usable_J = 60.0 * 3.6e6;
+  with_battery.vehicle->battery->charging_efficiency = 0.9;
+  const MeasurementModel given = scenarios::run_scenario(with_battery, {}).make_measurement_model();
+  const std::vector<double> range = given.evaluate(x);
+  CHECK(given.evaluate(gained)[7] == Approx(range[7] / 1.01));  // a meter that reads high makes the range short
   // Heavier, warmer: off the point, as --set has it.
   std::vector<std::string> others = settings;
   others.insert(others.end(), {"ambient_degC=27", "vehicle.mass_kg=2250"});

@@ -141,7 +141,8 @@ void write_pairs(const PairsOrder& order, const MakeItems& make_items,
                 {"none", order.none},
                 {"runs", order.runs},
                 {"sets", Json::object()}};
-  for (const PairPlan& pair : pairs) truth["sets"][pair.name] = nullptr;  // their order, in whichever they are made
+  for (const PairPlan& pair : pairs)
+    truth["sets"][pair.name] = nullptr;  // the order does not depend on which is made first
   const auto take = [&](const Json& made) {
     const auto name = made.at("name").get<std::string>();
     for (const auto& [file, content] : made.at("files").items()) {

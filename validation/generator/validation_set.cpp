@@ -211,7 +211,8 @@ void write_validation_set(const ValidationSetOrder& order, const MakeItems& make
   OutputFolder folder(order.out, false);
   const std::vector<SetOrder> cases = draw_cases(order);
   Json truth = describe_order(order);
-  for (const SetOrder& one : cases) truth["sets"][one.name] = nullptr;  // their order, in whichever they are made
+  for (const SetOrder& one : cases)
+    truth["sets"][one.name] = nullptr;  // the order does not depend on which is made first
   const auto take = [&](const Json& made) {
     const auto name = made.at("truth").at("name").get<std::string>();
     for (const char* kind : kCaseFolders) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/core/file_io.h"
+#include "sim/core/json.h"
 #include "validation/generator/measurement_set.h"
 
 namespace rollrig::generator {
@@ -14,8 +15,8 @@ namespace rollrig::generator {
 /// Called after each piece of work.
 using Progress = std::function<void(double share_done)>;
 
-/// Makes items, each of which is a function of its number: `make` is called for each, perhaps several at a time and in
-/// any order, and `take` with each item that is made, one at a time.
+/// Makes `count` items. `make` gives the item of a number; it may be called for several at a time, in any order. `take`
+/// gets each item that is made, one at a time.
 using MakeItems = std::function<void(std::size_t count, const std::function<Json(std::size_t)>& make,
                                      const std::function<void(const Json&)>& take)>;
 

@@ -10,12 +10,13 @@
 
 namespace rollrig::validation {
 
-/// What a list of answers has to say beside ItemList. carry_out() gives the answer, where "failure" says why a case
-/// could not be diagnosed, or is null.
+/// Cases to be answered. carry_out() gives the answer, where "failure" says why a case could not be diagnosed, or is
+/// null.
 class AnsweredItems : public campaigns::ItemList {
  public:
   virtual std::string number_of(std::size_t item) const = 0;
-  /// The answer from before, where it still holds: of the same files, by this program, with the same comparison.
+  /// The answer from before, or its "failure" alone, where it still holds: of the same files, by this program, with the
+  /// same comparison.
   virtual std::optional<Json> find_before(std::size_t item) const = 0;
   /// A diagnosis draws nothing.
   std::uint64_t calc_seed(std::size_t, std::uint64_t) const override { return 0; }

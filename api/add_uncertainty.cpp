@@ -1,8 +1,12 @@
-#include "api/uncertainty_part.h"
+#include "api/add_uncertainty.h"
 
 #include "estimation/uncertainty/uncertainty.h"
 
 namespace rollrig {
+
+void check_uncertainty(const UncertaintyOptions& options) {
+  estimation::check_trials(options.monte_carlo_trials, "--monte-carlo");
+}
 
 bool wants_uncertainty(const UncertaintyOptions& options, bool is_possible) {
   return options.budget || options.monte_carlo_trials > 0 || (options.budget_if_any && is_possible);

@@ -1,4 +1,4 @@
-#include "estimation/uncertainty/usual_inputs.h"
+#include "estimation/uncertainty/common_inputs.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace rollrig::estimation {
 
-UncertainInput make_assumed_limit(const std::string& name, const std::string& key, double value, double half_width,
+UncertainInput make_assumed_input(const std::string& name, const std::string& key, double value, double half_width,
                                   const std::string& limits) {
   UncertainInput input{name, key, value, half_width / std::sqrt(3.0), Distribution::kRectangular};
   input.source = fmt::format("Assumed: +-{}, rectangular; no file gives it", limits);
@@ -22,29 +22,26 @@ std::vector<UncertainInput> make_scatter_inputs(std::size_t count, double degree
   UncertainInput scale = error;
   scale.value = 1.0;
   scale.standard_uncertainty = 0.0;
-  if (std::isfinite(degrees_freedom)) scale.distribution = Distribution::kStudentScale;
+  if (std::isfinite(degrees_freedom)) scale.distribution = Distribution::kMultivariateT;
   inputs.push_back(scale);
   return inputs;
+}
+
+void share_scatter(const std::vector<UncertainInput>& scatter, UncertainInput& input) {
+  input.pool = scatter.front().name;
+  input.distribution = Distribution::kNormal;
+  input.evaluation = Evaluation::kTypeA;
+  input.degrees_freedom = scatter.front().degrees_freedom;
+}
+
+double take_scale(const std::vector<double>& inputs, std::size_t first, std::size_t count) {
+  return inputs[first + count];
 }
 
 std::vector<double> take_scatter(const std::vector<double>& inputs, std::size_t first, std::size_t count) {
   std::vector<double> errors(count);
   for (std::size_t i = 0; i < count; ++i) errors[i] = inputs[first + count] * inputs[first + i];
   return errors;
-}
-
-Eigen::MatrixXd calc_covariance_root(const Eigen::MatrixXd& covariance) {
-  constexpr double kNothing = 1e-12;  // of a variance: what rounding leaves
-  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(covariance.rows(), covariance.cols());
-  for (Eigen::Index j = 0; j < covariance.rows(); ++j) {
-    const double left = covariance(j, j) - root.row(j).head(j).squaredNorm();
-    if (left <= kNothing * covariance(j, j)) continue;
-    root(j, j) = std::sqrt(left);
-    for (Eigen::Index i = j + 1; i < covariance.rows(); ++i) {
-      root(i, j) = (covariance(i, j) - root.row(i).head(j).dot(root.row(j).head(j))) / root(j, j);
-    }
-  }
-  return root;
 }
 
 }  // namespace rollrig::estimation

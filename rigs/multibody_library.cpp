@@ -1,8 +1,11 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include "rigs/multibody_library.h"
+#include <memory>
+#include <vector>
+
 #include "rigs/multibody_drum.h"
+#include "rigs/multibody_library.h"
 #include "rigs/multibody_vehicle.h"
 #include "sim/core/error.h"
 

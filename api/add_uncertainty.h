@@ -1,5 +1,5 @@
 #pragma once
-/// The uncertainty of a result, as every call of the API adds it.
+/// Adds the uncertainty to a result, in every call of the API that has one.
 
 #include <string>
 
@@ -10,8 +10,11 @@
 
 namespace rollrig {
 
-/// Whether a budget or Monte Carlo is asked for or, where `is_possible`, is to be there if it can.
-bool wants_uncertainty(const UncertaintyOptions& options, bool is_possible);
+/// Throws InputError where the number of trials is out of range.
+void check_uncertainty(const UncertaintyOptions& options);
+
+/// Whether the caller asked for a budget or for Monte Carlo. `budget_if_any` counts only if there can be a budget.
+bool wants_uncertainty(const UncertaintyOptions& options, bool is_possible = true);
 
 /// Adds `uncertainty` to the JSON of a result, and returns its tables for the terminal. Throws RunFailure, Interrupted.
 std::string add_uncertainty(const estimation::MeasurementModel& model, const UncertaintyOptions& options,
