@@ -27,7 +27,7 @@ Eigen::Matrix3d calc_tested_root(const RoadLoadProcedure& procedure) {
   return jacobian.inverse() * calc_covariance_root(procedure.repeatability);
 }
 
-double find_least_freedom(const RoadLoadProcedure& procedure) {
+double find_fewest_freedom(const RoadLoadProcedure& procedure) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     if (procedure.repeatability(i, i) > 0.0) least = std::min(least, procedure.freedom(i));
@@ -71,7 +71,7 @@ MeasurementModel make_procedure_model(const RoadLoadProcedure& procedure) {
   model.measurands = {{"f0", "f0_N"}, {"f1", "f1_N_per_km_h"}, {"f2", "f2_N_per_km_h2"}};
   const bool has_f1 = procedure.kind != RoadLoadProcedureKind::kJ1263;
   if (!has_f1) model.measurands.erase(model.measurands.begin() + 1);
-  model.inputs = make_scatter_inputs(kCoefficients, find_least_freedom(procedure), "scatter of the runs",
+  model.inputs = make_scatter_inputs(kCoefficients, find_fewest_freedom(procedure), "scatter of the runs",
                                      "covariance of f0, f1 and f2 by the procedure");
   const std::size_t first_sensor = model.inputs.size();
   std::vector<RoadLoadSensor> sensors = list_road_load_sensors(procedure.tested);

@@ -40,7 +40,8 @@ struct UncertaintyBudget {
 std::vector<UncertaintyBudget> calc_budgets(const MeasurementModel& model,
                                             const std::function<void(double)>& advance = {});
 
-/// t_p of Student's t for a two-sided coverage of 95 %; 1.960 for infinitely many degrees of freedom.
+/// t_p of Student's t for a two-sided coverage of 95 %, also between whole numbers of degrees of freedom (G.4.1); 1.960
+/// for infinitely many.
 double calc_coverage_factor(double degrees_freedom);
 
 }  // namespace rollrig::estimation
