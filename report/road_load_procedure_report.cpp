@@ -79,8 +79,8 @@ TestReport make_procedure_report(const RoadLoadProcedure& procedure, const std::
   TestReport report;
   report.title = "Test report: road load, " + title_of(procedure.kind);
   report.standard =
-      "rollrig knows parts of the standards alone (docs/road_load_procedures.md), and these parts have no form. The "
-      "fields are those that a reader needs to judge and repeat the test.";
+      "rollrig knows only parts of the standards (docs/road_load_procedures.md), and these parts prescribe no form. "
+      "The fields are those that a reader needs to judge and repeat the test.";
   report.subject = fmt::format("{}, {}", source, format_count(procedure.run_names.size(), "run"));
   report.warnings = procedure.warnings;
   ReportSection results{"Results", {make_procedure_results(values)}};

@@ -121,9 +121,8 @@ std::vector<ReportSection> make_uncertainty_sections(const ReportValues& values)
     budgets.parts.push_back(ReportText{"Not included: " + left_out.get<std::string>()});
   }
   budgets.parts.push_back(ReportText{
-      "By JCGM 100:2008: u(x) standard uncertainty, c sensitivity coefficient, dof degrees of freedom. * Assumed, or "
-      "the "
-      "accuracy that a regulation asks for: put the figures of your instruments' certificates in its place."});
+      "By JCGM 100:2008: u(x) standard uncertainty, c sensitivity coefficient, dof degrees of freedom. * Assumed, "
+      "or the accuracy that a regulation asks for: put the figures of your instruments' certificates in its place."});
   sections.push_back(std::move(budgets));
   if (uncertainty.contains("monte_carlo")) sections.push_back(make_monte_carlo_section(values));
   return sections;
