@@ -128,6 +128,7 @@ std::string read_machine(TableReader& reader, const std::string& folder, Measure
   const std::string path = find_asset_of(reader, "rig", folder, "rigs", reader.text("rig"));
   set.rig = rigs::read_rig(read_config(path));
   set.rig->content = read_text_file(path);
+  rigs::use_skim_load_of_class(*set.rig, set.tire);
   if (!set.rig->kind->names_rig()) {
     throw reader.problem("rig", fmt::format("rig '{}' is a road, where a set names a vehicle", set.rig->name),
                          "a rig of another kind, or vehicle = ... with kind = \"road\"");

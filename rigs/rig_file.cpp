@@ -1,6 +1,7 @@
 #include "rigs/rig_file.h"
 
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -41,18 +42,18 @@ const MachineKind& read_kind(TableReader& file) {
   return find_machine_kind(file.text("kind", machine_words()));  // throws
 }
 
-/// Whether the file says what the first format could not.
-bool is_new_form(const RigFile& rig) {
-  return !rig.conductances_of.empty() || rig.tire_cooling.is_given() ||
-         std::string(rig.kind->word) != rig.kind->former_word;
-}
-
 /// Whether a table that may be left out was there.
 template <class Group>
 bool has_numbers(const Group& group) {
   bool has = false;
   Group::visit(group, [&has](const Field&, const double& value) { has = has || value != 0.0; });
   return has;
+}
+
+/// Whether the file says what the first format could not.
+bool is_new_form(const RigFile& rig) {
+  return !rig.conductances_of.empty() || rig.tire_cooling.is_given() || has_numbers(rig.skim_by_class) ||
+         std::string(rig.kind->word) != rig.kind->former_word;
 }
 
 }  // namespace
@@ -90,6 +91,13 @@ std::string write_rig(const RigFile& rig) {
     }
   });
   return text;
+}
+
+void use_skim_load_of_class(RigFile& rig, const models::TireFile& tire) {
+  const SkimByClassParameters loads = std::exchange(rig.skim_by_class, {});
+  if (!tire.service.has_value() || tire.service->tire_class == models::TireClass::kC1) return;
+  const double load_N = tire.service->tire_class == models::TireClass::kC2 ? loads.c2_load_N : loads.c3_load_N;
+  if (load_N > 0.0) rig.skim.load_N = load_N;
 }
 
 const char* name_of_rolling_wheels(const RigFile& rig) { return rig.driven_wheels_only ? kDrivenWheels : kAllWheels; }

@@ -55,6 +55,20 @@ struct SkimParameters {
   }
 };
 
+/// Loads of the skim test for tires of commercial vehicles; 0: that of [skim].
+struct SkimByClassParameters {
+  double c2_load_N = 0.0;
+  double c3_load_N = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"C2_load_N", between(0.0, 1000000.0), "Load of the skim test of a tire of class C2; 0: that of [skim]",
+                0.0},
+          p.c2_load_N);
+    visit(Field{"C3_load_N", between(0.0, 1000000.0), "Likewise of class C3", 0.0}, p.c3_load_N);
+  }
+};
+
 /// The carriage that presses the wheel on the drum or belt, from above.
 struct CarriageParameters {
   double mass_kg = 0.0;
@@ -117,7 +131,8 @@ struct RigFile {
   models::ParasiticParameters<double> parasitic;
   models::ParasiticParameters<double> parasitic_uncertainties;  // 0 where none was given
   RigEnvironment environment;
-  SkimParameters skim;
+  SkimParameters skim;  // with a tire: the load of its class, set by use_skim_load_of_class()
+  SkimByClassParameters skim_by_class;
   CarriageParameters carriage;
   DriveParameters drive;
   TieDownParameters tie_down;
@@ -148,6 +163,7 @@ struct RigFile {
     if (is_indoors(machine)) visit("parasitic", rig.parasitic, Presence::kRequired);
     visit("environment", rig.environment, Presence::kRequired);
     visit("skim", rig.skim, has_skim(machine) ? Presence::kRequired : Presence::kOptional);
+    if (has_skim(machine)) visit("skim_by_class", rig.skim_by_class, Presence::kOptional);
     if (has_skim(machine)) visit("carriage", rig.carriage, Presence::kDefaults);
     if (is_tied_down(machine)) visit("tie_down", rig.tie_down, Presence::kDefaults);
     if (is_indoors(machine)) visit("drive", rig.drive, Presence::kDefaults);
@@ -157,6 +173,10 @@ struct RigFile {
 
 /// Reads a rig from parsed TOML. Throws InputError.
 RigFile read_rig(const ConfigTable& config);
+
+/// Sets the load of the skim test to that of [skim_by_class] for the tire's class, where there is one, and empties
+/// [skim_by_class]: then the rig is one for this tire.
+void use_skim_load_of_class(RigFile& rig, const models::TireFile& tire);
 
 /// "all_wheels" or "driven_wheels": what rolls on a dyno.
 const char* name_of_rolling_wheels(const RigFile& rig);

@@ -109,6 +109,7 @@ std::string make_reference_page() {
       "drum"_a = describe_keys<rigs::DrumParameters>(), "belt"_a = describe_keys<rigs::BeltParameters>(),
       "parasitic"_a = describe_keys<models::ParasiticParameters<double>>(),
       "environment"_a = describe_keys<rigs::RigEnvironment>(), "skim"_a = describe_keys<rigs::SkimParameters>(),
+      "skim_by_class"_a = describe_keys<rigs::SkimByClassParameters>(),
       "carriage"_a = describe_keys<rigs::CarriageParameters>(), "drive"_a = describe_keys<rigs::DriveParameters>(),
       "tie_down"_a = describe_keys<rigs::TieDownParameters>(), "tire_cooling"_a = describe_keys<models::TireCooling>(),
       "body"_a = describe_keys<rigs::VehicleBody>(), "axle"_a = describe_keys<rigs::VehicleAxle>(),

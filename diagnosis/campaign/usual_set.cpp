@@ -50,6 +50,7 @@ void read_machine(const CampaignInput& input, measurements::MeasurementSet& set)
   }
   set.rig = read_named("rigs", set.kind != nullptr ? set.kind->usual_rig : input.rig,
                        [](const ConfigTable& config) { return rigs::read_rig(config); });
+  rigs::use_skim_load_of_class(*set.rig, set.tire);
   set.kind = set.rig->kind;
   if (set.kind->names_rig()) return;
   throw InputError({fmt::format("rig '{}' is a road, where a campaign has a vehicle", set.rig->name), "command line", 0,

@@ -83,10 +83,20 @@ void check_rig_kind(const RunSpec& spec) {
        fmt::format("a rig of kind \"{}\"", fmt::join(rigs::list_machines(spec.scenario->runs_on), "\" or \"")), ""});
 }
 
+/// The load of the skim test by the class of the tire. One that the run gives holds for all classes.
+void read_skim_load(RunDocument& document, RunSpec& spec) {
+  const ConfigTable* changes = document.overrides.table("rig");
+  const ConfigValue* skim = changes != nullptr ? changes->find("skim") : nullptr;
+  const bool is_given = skim != nullptr && skim->as_table() != nullptr && skim->as_table()->find("load_N") != nullptr;
+  if (is_given && changes->find("skim_by_class") == nullptr) spec.rig.skim_by_class = {};
+  rigs::use_skim_load_of_class(spec.rig, spec.tire);
+}
+
 void read_machines(RunDocument& document, RunSpec& spec) {
   const Scenario& scenario = *spec.scenario;
   if (scenario.has_rig()) {
     spec.rig = document.read_file("rig", "rigs", document.reader.text_or("rig", scenario.default_rig), &rigs::read_rig);
+    read_skim_load(document, spec);
   } else {
     document.refuse("rig", scenario);
     spec.rig = rigs::find_kind_without_rig(scenario.runs_on).make_rig();

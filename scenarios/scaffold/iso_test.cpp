@@ -17,6 +17,7 @@ Outcome simulate_iso_test(const models::TireFile& tire) {
   spec.scenario = &find_scenario("iso_28580");
   spec.tire = tire;
   spec.rig = rigs::read_rig(read_config(find_asset("rigs", spec.scenario->default_rig)));
+  rigs::use_skim_load_of_class(spec.rig, tire);
   spec.fidelity = Fidelity::kQuasiStatic;
   return run_scenario(spec, {});
 }

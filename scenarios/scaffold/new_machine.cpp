@@ -55,6 +55,14 @@ void replace_line(std::string& toml, const std::string& table, const std::string
   toml.replace(at, end - at, comment.empty() ? assignment : fmt::format("{:<37} # {}", assignment, comment));
 }
 
+/// Takes out a table with its header, if it is there.
+void remove_table(std::string& toml, const std::string& table) {
+  const std::size_t header = toml.find("\n[" + table + "]");
+  if (header == std::string::npos) return;
+  const std::size_t next = toml.find("\n[", header + 1);
+  toml.erase(header, (next == std::string::npos ? toml.size() : next) - header);
+}
+
 std::string show_seven_digits(double value) { return fmt::format("{:.7g}", value); }
 
 void require_rig_options(const NewRigOptions& options) {
@@ -189,8 +197,10 @@ std::string write_new_rig(const NewRigOptions& options) {
   replace_line(toml, "", "name", "\"" + (options.name.empty() ? "my_" + options.kind : options.name) + "\"", "");
   put_drum(options, base, rig, toml);
   scale_bearings(options, rig, toml);
-  if (options.skim_load_N.has_value())
+  if (options.skim_load_N.has_value()) {
     replace_line(toml, "skim", "load_N", show_seven_digits(*options.skim_load_N), "Given");
+    remove_table(toml, "skim_by_class");  // the load that was given is that of all tires
+  }
   if (options.ambient_degC.has_value()) {
     replace_line(toml, "environment", "ambient_degC", show_seven_digits(*options.ambient_degC), "Given");
   }

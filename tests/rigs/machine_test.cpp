@@ -24,6 +24,7 @@ TEST_CASE("every rig file is written as it was read", "[fast]") {
 TEST_CASE("how a rig cools tires is written and read, in the new format alone", "[fast]") {
   rigs::RigFile rig = rigs::read_rig(read_config(find_asset("rigs", "drum_2m")));
   rig.tire_cooling = {};
+  rig.skim_by_class = {};
   CHECK_THAT(rigs::write_rig(rig), Catch::StartsWith("format = \"rollrig-rig/1\"") && !Catch::Contains("tire_cooling"));
   rig.tire_cooling = {11.0, 1.5};
   rig.tire_cooling_uncertainties = {0.7, 0.0};
@@ -34,6 +35,22 @@ TEST_CASE("how a rig cools tires is written and read, in the new format alone", 
   CHECK(again.tire_cooling.per_speed_W_s_per_m3_K == 1.5);
   CHECK(again.tire_cooling_uncertainties.at_rest_W_per_m2_K == 0.7);
   CHECK(again.tire_cooling_uncertainties.per_speed_W_s_per_m3_K == 0.0);
+}
+
+TEST_CASE("the loads of the skim test by class are written and read, in the new format alone", "[fast]") {
+  rigs::RigFile rig = rigs::read_rig(read_config(find_asset("rigs", "drum_2m")));
+  rig.tire_cooling = {};
+  rig.skim_by_class = {0.0, 350.0};
+  const std::string text = rigs::write_rig(rig);
+  CHECK_THAT(text, Catch::StartsWith("format = \"rollrig-rig/2\""));
+  rigs::RigFile again = rigs::read_rig(parse_config(text, "rig.toml"));
+  rigs::use_skim_load_of_class(again, tests::read_asset_tire("c3_315_80r22_5"));
+  CHECK(again.skim.load_N == 350.0);
+  CHECK(again.skim_by_class.c3_load_N == 0.0);
+  again.skim_by_class = {0.0, 350.0};
+  again.skim.load_N = 200.0;
+  rigs::use_skim_load_of_class(again, tests::read_asset_tire("c2_215_65r16c"));  // a load of 0: that of [skim]
+  CHECK(again.skim.load_N == 200.0);
 }
 
 TEST_CASE("a road by its former word is still read, and its asset still found", "[fast]") {

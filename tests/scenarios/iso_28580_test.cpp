@@ -173,3 +173,27 @@ TEST_CASE("a warm-up that is too short for the tire is warned of", "[fast]") {
   CHECK_THAT(rushed.warnings.front(), Catch::Contains("warm_up_min is too short"));
   CHECK(run("iso_28580", "c1_205_55r16").warnings.empty());
 }
+
+TEST_CASE("the skim test has the load of the tire's class, or the one that the run gives", "[fast]") {
+  const auto find_skim_load_N = [](const char* tire, const std::vector<std::string>& settings) {
+    scenarios::RunSpec spec = make_spec("iso_28580", tire, settings, "quasi_static");
+    const auto outcome = scenarios::run_scenario(spec, {});
+    const auto& recording = outcome.recording;
+    return scenarios::calc_window_mean(recording.time_s, recording.channel("load_N"),
+                                       {number(outcome, "skim_start_s"), number(outcome, "skim_end_s")}, 1.0);
+  };
+  CHECK(find_skim_load_N("a50", {}) == Approx(200.0));
+  CHECK(find_skim_load_N("c2_215_65r16c", {}) == Approx(150.0));
+  CHECK(find_skim_load_N("c3_315_80r22_5", {}) == Approx(400.0));
+  CHECK(find_skim_load_N("c3_315_80r22_5", {"rig.skim.load_N=300"}) == Approx(300.0));
+  CHECK(find_skim_load_N("c3_315_80r22_5", {"rig.skim_by_class.C3_load_N=350"}) == Approx(350.0));
+}
+
+TEST_CASE("a higher skim load takes more of the tire's own loss out of the result", "[fast]") {
+  // The skim reading has the loss of the tire at skim load: (F_skim/F_z)^b of its loss under load at equal temperature.
+  const auto find_rrc = [](const std::string& skim_load_N) {
+    return number(run("iso_28580", "c3_315_80r22_5", {"rig.skim.load_N=" + skim_load_N}, "quasi_static"),
+                  "rrc_25degC_2m_N_per_kN");
+  };
+  CHECK(find_rrc("400") < find_rrc("200"));
+}
