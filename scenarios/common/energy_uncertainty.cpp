@@ -21,11 +21,12 @@ using estimation::UncertainInput;
 
 // Half-widths of rectangular distributions; no file says anything of these instruments.
 constexpr double kMeterGainLimit = 0.01;       // Assumed: a power analyzer with its current clamps
+constexpr double kRechargeGainLimit = 0.005;   // Assumed: a calibrated meter of alternating current, class 0.5
 constexpr double kTestMassLimit = 0.002;       // Assumed: a vehicle scale
 constexpr double kTestAmbientLimit_K = 1.0;    // Assumed: the air of the cell, at the tires
 constexpr double kTestPressureLimit_Pa = 3e3;  // Assumed: a pressure gauge of a workshop
 
-/// Places of the inputs; the numbers of the tire follow.
+/// Places of the inputs; the numbers of the tire follow, and last, where there is a battery, the meter of the recharge.
 namespace energy_input {
 enum : std::size_t { kMeter, kMass, kAmbient, kPressure, kTire };
 }
@@ -88,6 +89,7 @@ struct MeasuredEnergies {
   struct Cycle {
     double consumption_J_per_m = 0.0;
     double range_m = 0.0;
+    double recharge_J_per_m = 0.0;  // alternating current; 0 without a battery
   };
   std::vector<Cycle> cycles;  // none in a test of another order than that of SAE J1634
 };
@@ -102,9 +104,28 @@ MeasuredEnergies find_energies(const Json& result) {
     found.rolling_J += find_SI(section, "vehicle_rr_energy_Wh");
   }
   for (const Json& cycle : result["economy"]) {
-    found.cycles.push_back({find_SI(cycle, "dc_consumption_Wh_per_km"), find_SI(cycle, "range_km")});
+    const char* const recharge = "ac_consumption_Wh_per_km";
+    found.cycles.push_back({find_SI(cycle, "dc_consumption_Wh_per_km"), find_SI(cycle, "range_km"),
+                            cycle[recharge].is_null() ? 0.0 : find_SI(cycle, recharge)});
   }
   return found;
+}
+
+/// The measurands of consumption and range of a cycle. With a battery, the recharge is one of them.
+void add_cycle(const std::string& cycle, bool has_battery, std::vector<estimation::Measurand>& measurands) {
+  measurands.push_back({fmt::format("consumption, {}, direct current", cycle), cycle + "_dc_consumption_Wh_per_km"});
+  measurands.push_back({fmt::format("range, {}", cycle), cycle + "_range_km"});
+  if (!has_battery) return;
+  measurands.push_back(
+      {fmt::format("consumption, {}, alternating current", cycle), cycle + "_ac_consumption_Wh_per_km"});
+}
+
+/// The values of the same measurands, as the meters read them.
+void add_cycle_values(const MeasuredEnergies& energies, const MeasuredEnergies::Cycle& cycle, double meter,
+                      std::optional<double> recharge_meter, std::vector<double>& values) {
+  values.push_back(meter * cycle.consumption_J_per_m);
+  values.push_back(energies.is_usable_given ? cycle.range_m / meter : cycle.range_m);
+  if (recharge_meter.has_value()) values.push_back(*recharge_meter * meter * cycle.recharge_J_per_m);
 }
 
 }  // namespace
@@ -116,11 +137,8 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
   if (has_tire_loss(spec)) {
     model.measurands.push_back({"energy of rolling resistance, all tires and sections", "vehicle_rr_energy_Wh"});
   }
-  for (const std::string& cycle : cycles) {
-    model.measurands.push_back(
-        {fmt::format("consumption, {}, direct current", cycle), cycle + "_dc_consumption_Wh_per_km"});
-    model.measurands.push_back({fmt::format("range, {}", cycle), cycle + "_range_km"});
-  }
+  const bool has_battery = spec.vehicle->battery.has_value();
+  for (const std::string& cycle : cycles) add_cycle(cycle, has_battery, model.measurands);
   const auto setting = [&settings](const char* key) { return unit_of_key(key).to_si(settings[key].get<double>()); };
   const double mass_kg = spec.vehicle->body.mass_kg;
   model.inputs = {
@@ -136,10 +154,15 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
     model.inputs.push_back(input);
   }
   if (numbers->keys.empty()) model.left_out.push_back("the loss of the tire: its file gives no uncertainty");
-  if (spec.vehicle->battery.has_value()) {
-    model.left_out.push_back("consumption of alternating current, MPGe, label values: they follow from these results");
+  if (has_battery) {
+    model.inputs.push_back(
+        make_assumed_input("gain of the recharge meter", "gain_percent", 1.0, kRechargeGainLimit, "0.5 %"));
     model.left_out.push_back(
-        "ranges: the usable battery energy, which is taken from the vehicle file without an uncertainty");
+        "MPGe: its relative uncertainty is that of the consumption with alternating current; of a label range, that of "
+        "the range");
+    model.left_out.push_back(
+        "usable battery energy and energy of the recharge: they are taken from the vehicle file without an "
+        "uncertainty");
   }
   model.left_out.push_back("the setting of the dynamometer, the efficiency of the powertrain, how the driver follows");
   model.evaluate = [&spec, numbers](const std::vector<double>& x) {
@@ -154,9 +177,10 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
     const MeasuredEnergies energies = find_energies(run_scenario(own, {}).result);
     std::vector<double> results{x[energy_input::kMeter] * energies.battery_J};
     if (has_tire_loss(own)) results.push_back(energies.rolling_J);
+    const std::optional<double> recharge_meter =
+        own.vehicle->battery.has_value() ? std::optional(x.back()) : std::nullopt;
     for (const MeasuredEnergies::Cycle& cycle : energies.cycles) {
-      results.push_back(x[energy_input::kMeter] * cycle.consumption_J_per_m);
-      results.push_back(energies.is_usable_given ? cycle.range_m / x[energy_input::kMeter] : cycle.range_m);
+      add_cycle_values(energies, cycle, x[energy_input::kMeter], recharge_meter, results);
     }
     return results;
   };

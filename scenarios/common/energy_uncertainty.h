@@ -10,11 +10,14 @@
 namespace rollrig::scenarios {
 
 /// Energy of the battery and of rolling resistance, over all sections of result.json; of a multi-cycle test of SAE J1634
-/// also consumption and range of the `cycles` (city, highway, combined). Each evaluation simulates the test again,
+/// also consumption and range of the `cycles` (city, highway, combined), and with a battery the consumption of
+/// alternating current. Each evaluation simulates the test again,
 /// quasi-static and without sensors.
 /// Equation  E = g E_sim(mass, T_amb, p, x_0 + S L z)
 /// Symbols   g gain of the energy meter, for the battery and the consumption; a range is over 1/g where the
-///           vehicle file gives the usable energy, and without g where the sections, by the same meter, give it; x
+///           vehicle file gives the usable energy, and without g where the sections, by the same meter, give it. The
+///           consumption of alternating current, energy of the recharge over range, is times g and times the gain of
+///           the meter of the recharge; x
 ///           numbers of the tire file with a standard uncertainty, S these uncertainties, L L^T their correlation, z
 ///           independent inputs of standard deviation 1, T_amb and p air temperature and pressure of the tires
 /// Validity  one tire file for all axles that are varied; the setting of the dynamometer stays as it is

@@ -47,8 +47,21 @@ TEST_CASE("the energies of the budget are those of the result, and move as in si
   with_battery.vehicle->battery->usable_J = 60.0 * 3.6e6;
   with_battery.vehicle->battery->charging_efficiency = 0.9;
   const MeasurementModel given = scenarios::run_scenario(with_battery, {}).make_measurement_model();
+  // With a battery each cycle has a third measurand, consumption of alternating current, and the recharge a meter.
+  REQUIRE(given.measurands.size() == 2 + 3 * 3);
+  CHECK(given.measurands[10].key == "combined_ac_consumption_Wh_per_km");
+  x.push_back(1.0);
+  gained.push_back(1.0);
   const std::vector<double> range = given.evaluate(x);
-  CHECK(given.evaluate(gained)[7] == Approx(range[7] / 1.01));  // a meter that reads high makes the range short
+  CHECK(range[10] / 3.6 ==
+        Approx(scenarios::run_scenario(with_battery, {}).result["economy"][2]["ac_consumption_Wh_per_km"].get<double>())
+            .epsilon(1e-9));
+  CHECK(given.evaluate(gained)[9] == Approx(range[9] / 1.01));    // a meter that reads high makes the range short
+  CHECK(given.evaluate(gained)[10] == Approx(range[10] * 1.01));  // and the same recharge lasts for fewer km
+  gained.back() = 1.02;
+  CHECK(given.evaluate(gained)[10] == Approx(range[10] * 1.01 * 1.02));
+  CHECK(given.evaluate(gained)[9] == Approx(range[9] / 1.01));
+  x.pop_back();
   // Heavier, warmer: off the point, as --set has it.
   std::vector<std::string> others = settings;
   others.insert(others.end(), {"ambient_degC=27", "vehicle.mass_kg=2250"});
