@@ -295,7 +295,7 @@ Scenario make() {
   Scenario scenario = make_drum_scenario(
       {"iso_28580", "Whole ISO 28580 test: soak, pressure, run-up, warm-up, measurement, skim",
        "3 h soak at test temperature; pressure set and verified after 10 min; run-up at skim load; 30 min under "
-       "load at 80 km/h, of which the last minute is the measurement; 3 min skim at 200 N, of which the last "
+       "load at 80 km/h, of which the last minute is the measurement; 3 min at skim load, of which the last "
        "minute gives the parasitic loss. With measurement_cycles, further cycles of 10 min load and 3 min skim "
        "follow, and the last of them is the measurement. Ranges are found from the load signal. With "
        "[service_description] of the tire, load, pressure, speed, soak, warm-up and temperature coefficient are those "

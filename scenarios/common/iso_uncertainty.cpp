@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "models/tire/conversion_laws.h"
 #include "models/tire/drum_curvature.h"
-#include "models/wheel/rolling_wheel.h"
+#include "scenarios/common/iso_method_budgets.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -17,15 +18,11 @@ using estimation::MeasurementModel;
 using estimation::UncertainInput;
 
 // Half-widths of rectangular distributions for instruments of which no file says anything.
-constexpr double kIsoGainLimit = 0.005;                 // Assumed: of torque or force, a transducer of class 0.5
-constexpr double kIsoLoadLimit = 0.005;                 // Assumed: of the load, likewise
+constexpr double kIsoLoadLimit = 0.005;                 // Assumed: of the load, a force cell of class 0.5
 constexpr double kIsoAmbientLimit_K = 0.2;              // Assumed: a calibrated resistance thermometer
 constexpr double kIsoDiameterLimit_m = 0.001;           // Assumed: measured with a tape around the drum
 constexpr double kIsoPressureLimit_Pa = 1e3;            // Assumed: a gauge with a resolution of 1 kPa
 constexpr double kIsoSpeedLimit_m_s = 0.1 / kKmhPerMs;  // Assumed: a counter on the drum's shaft
-constexpr double kIsoTimeLimit = 0.001;                 // Assumed: of speed over time, a counter and a clock
-constexpr double kIsoAngleLimit_rad = 5e-5;             // Assumed: what tests in both directions of rotation leave
-constexpr double kIsoInertiaLimit = 0.005;              // Assumed: of drum and wheel, by a known torque
 constexpr std::size_t kFewestCycles = 3;                // Assumed: whose scatter says more than the sensor's file
 
 /// Places of the inputs.
@@ -78,14 +75,9 @@ class IsoResponse {
   double by_speed_ = 0.0, by_speed_2_ = 0.0, by_pressure_ = 0.0, by_pressure_2_ = 0.0, by_both_ = 0.0;
 };
 
-/// Whether each cycle has its rolling resistance by the method.
-bool is_in_cycles(const std::string& method) { return method == kTorqueMethod || method == kForceMethod; }
-
 /// Whether the scatter of the cycles stands for noise and drift of the sensor.
-bool has_scatter(const RunSpec& spec, const std::string& method, const std::vector<Cycle>& cycles) {
-  const Quantity& channel = method == kForceMethod ? quantities::kSpindleForce : spec.rig.kind->traits.force;
-  return is_in_cycles(method) && spec.sensors.has_value() && spec.sensors->count(channel) > 0 &&
-         cycles.size() > kFewestCycles;
+bool has_scatter(const RunSpec& spec, const MethodBudget& budget, const std::vector<Cycle>& cycles) {
+  return budget.resistance_N != nullptr && has_sensor(spec, budget) && cycles.size() > kFewestCycles;
 }
 
 struct ScatterOfCycles {
@@ -108,33 +100,6 @@ ScatterOfCycles calc_scatter(const std::vector<Cycle>& cycles, double Cycle::*re
   return {std::sqrt(squares / (2.0 * (n - 1.0))), 2.0 * (n - 1.0) * (n - 1.0) / (3.0 * n - 4.0)};
 }
 
-/// What stands for the sensor of a method.
-struct MethodSensor {
-  models::SensorParameters sensor;
-  std::string source;
-  bool is_assumed = false;
-};
-
-/// The sensor of the run for the method's channel; else, of force and power, one as good as that of the torque.
-MethodSensor find_method_sensor(const RunSpec& spec, const std::string& method, double speed_m_s) {
-  const std::string by_sensor = "noise, drift and resolution of the sensor, of the means over the two windows";
-  if (method == kTorqueMethod) return {find_force_sensor(spec), by_sensor};
-  const Quantity& channel = method == kForceMethod ? quantities::kSpindleForce : quantities::kMotorPower;
-  if (spec.sensors.has_value() && spec.sensors->count(channel) > 0) return {spec.sensors->at(channel), by_sensor};
-  const double per_torque = (method == kForceMethod ? 1.0 : speed_m_s) / spec.rig.lever_m();
-  models::SensorParameters sensor = find_force_sensor(spec);
-  for (double* of : {&sensor.offset_sd, &sensor.drift_sd, &sensor.noise_sd, &sensor.resolution}) *of *= per_torque;
-  return {sensor, "Assumed: a sensor as good as that of the torque; no file gives it", true};
-}
-
-/// A key with the unit of the method's readings.
-std::string find_reading_key(const RunSpec& spec, const std::string& method) {
-  if (method == kForceMethod) return "force_N";
-  if (method == kPowerMethod) return "power_W";
-  if (method == kDecelerationMethod) return "deceleration_m_s2";
-  return spec.rig.kind->traits.force.header();
-}
-
 /// Standard deviation of the two decelerations, referred to the loaded one.
 /// Equation  s^2 = s_t^2 + (c_s/c_t)^2 s_s^2
 /// Symbols   s_t, s_s standard deviation of the loaded deceleration and of that in skim; c mass at the surface
@@ -148,15 +113,21 @@ UncertainInput make_deceleration_input(const RunSpec& spec, const Cycle& cycle, 
   return input;
 }
 
+/// How much force the reading of a method stands for, per unit.
+double calc_force_per_reading(const RunSpec& spec, const MethodBudget& budget, const Reading& at) {
+  return budget.calc_force_N({spec, at, 1.0, spec.rig.lever_m()});
+}
+
 /// The difference of the two readings: its error from noise, drift and resolution, by the sensor or by the cycles.
 UncertainInput make_reading_input(const RunSpec& spec, const std::vector<Cycle>& cycles,
                                   const MethodReadings& readings) {
   const Cycle& cycle = cycles.back();
   if (readings.method == kDecelerationMethod) return make_deceleration_input(spec, cycle, readings);
-  UncertainInput input{"noise and drift, load minus skim", find_reading_key(spec, readings.method),
+  const MethodBudget& budget = find_method_budget(readings.method);
+  UncertainInput input{"noise and drift, load minus skim", find_reading_key(spec, budget),
                        readings.loaded - readings.skim};
-  if (!has_scatter(spec, readings.method, cycles)) {
-    const MethodSensor at = find_method_sensor(spec, readings.method, cycle.loaded.speed_m_s);
+  if (!has_scatter(spec, budget, cycles)) {
+    const MethodSensor at = find_method_sensor(spec, budget, cycle.loaded.speed_m_s);
     input.standard_uncertainty =
         std::sqrt(models::calc_difference_variance(at.sensor, cycle.loaded.samples, spec.sample_interval_s,
                                                    cycle.skim.window.start_s - cycle.loaded.window.start_s));
@@ -164,14 +135,9 @@ UncertainInput make_reading_input(const RunSpec& spec, const std::vector<Cycle>&
     input.is_from_limits = at.is_assumed;
     return input;
   }
-  const bool is_force = readings.method == kForceMethod;
-  const ScatterOfCycles scatter =
-      calc_scatter(cycles, is_force ? &Cycle::force_method_N : &Cycle::rolling_resistance_N);
-  const double loaded_radius_m = calc_loaded_radius_m(spec.tire.values, cycle.loaded.load_N);
-  const double per_reading =
-      is_force ? models::calc_rolling_ratio(loaded_radius_m, spec.rig.curvature_per_m()) : 1.0 / spec.rig.lever_m();
+  const ScatterOfCycles scatter = calc_scatter(cycles, budget.resistance_N);
   input.name = "repeatability, cycle to cycle";
-  input.standard_uncertainty = scatter.sd_N / per_reading;
+  input.standard_uncertainty = scatter.sd_N / calc_force_per_reading(spec, budget, cycle.loaded);
   input.degrees_freedom = scatter.degrees_of_freedom;
   input.evaluation = Evaluation::kTypeA;
   input.distribution = Distribution::kStudentT;
@@ -204,98 +170,46 @@ UncertainInput make_diameter_input(const RunSpec& spec, const IsoAccuracies& acc
   return input;
 }
 
-/// The common offset of both readings. A deceleration is a slope, which has none.
-UncertainInput make_offset_input(const RunSpec& spec, const MethodReadings& readings, double speed_m_s) {
-  UncertainInput offset{"zero of torque or force", find_reading_key(spec, readings.method)};
-  if (readings.method == kPowerMethod) offset.name = "zero of the power";
-  if (readings.method == kDecelerationMethod) {
-    offset.name = "zero of the speed";
-    offset.source = "none: a slope over time has no zero";
-    return offset;
+/// The common offset of both readings.
+UncertainInput make_offset_input(const RunSpec& spec, const MethodBudget& budget, double speed_m_s) {
+  const std::string key = find_reading_key(spec, budget);
+  if (budget.zero_name == nullptr) {
+    UncertainInput none{"zero of the speed", key};
+    none.source = "none: a slope over time has no zero";
+    return none;
   }
-  const MethodSensor at = find_method_sensor(spec, readings.method, speed_m_s);
+  UncertainInput offset{budget.zero_name, key};
+  const MethodSensor at = find_method_sensor(spec, budget, speed_m_s);
   offset.standard_uncertainty = at.sensor.offset_sd;
   offset.is_from_limits = at.is_assumed;
   offset.source = at.is_assumed ? at.source : "offset of the sensor; the skim test cancels it";
   return offset;
 }
 
-UncertainInput make_gain_input(const MethodReadings& readings, const IsoAccuracies& accuracies) {
-  const bool is_time = readings.method == kDecelerationMethod;
-  const char* name = is_time                           ? "gain of speed over time"
-                     : readings.method == kPowerMethod ? "gain of the power"
-                                                       : "gain of torque or force";
-  return make_instrument_input(name, "gain_percent", 1.0, accuracies.gain, is_time ? kIsoTimeLimit : kIsoGainLimit);
-}
-
-/// What one method alone rests on: the angle of the force cell, or the inertias. No line of the others.
-void add_method_input(const MethodReadings& readings, const IsoAccuracies& accuracies,
-                      std::vector<UncertainInput>& inputs) {
-  if (readings.method == kForceMethod) {
-    inputs.push_back(make_instrument_input("angle of the force cell to the load", "angle_mrad",
-                                           readings.misalignment_rad, accuracies.force_cell_angle_rad,
-                                           kIsoAngleLimit_rad));
-  } else if (readings.method == kDecelerationMethod) {
-    inputs.push_back(
-        make_instrument_input("inertias of drum and wheel", "gain_percent", 1.0, accuracies.inertia, kIsoInertiaLimit));
-  }
-}
-
 std::vector<UncertainInput> make_iso_inputs(const RunSpec& spec, const std::vector<Cycle>& cycles,
                                             const MethodReadings& readings, double pressure_Pa,
                                             const IsoAccuracies& accuracies) {
   const Reading& loaded = cycles.back().loaded;
+  const MethodBudget& budget = find_method_budget(readings.method);
   const std::optional<double> load_N =
       accuracies.load.has_value() ? std::optional(*accuracies.load * loaded.load_N) : std::nullopt;
   std::vector<UncertainInput> inputs{
       make_reading_input(spec, cycles, readings),
-      make_offset_input(spec, readings, loaded.speed_m_s),
-      make_gain_input(readings, accuracies),
+      make_offset_input(spec, budget, loaded.speed_m_s),
+      make_instrument_input(budget.gain_name, "gain_percent", 1.0, accuracies.gain, budget.gain_limit),
       make_instrument_input("load", "load_N", loaded.load_N, load_N, kIsoLoadLimit * loaded.load_N),
       make_diameter_input(spec, accuracies),
       make_instrument_input("ambient temperature", "ambient_degC", loaded.ambient_K, accuracies.ambient_K,
                             kIsoAmbientLimit_K),
       make_instrument_input("speed", "speed_km_h", loaded.speed_m_s, accuracies.speed_m_s, kIsoSpeedLimit_m_s),
       make_pressure_input(spec, pressure_Pa, accuracies)};
-  add_method_input(readings, accuracies, inputs);
+  if (budget.own.has_value()) {
+    const OwnInput& own = *budget.own;
+    inputs.push_back(make_instrument_input(own.name, own.key, own.value.value_or(readings.misalignment_rad),
+                                           accuracies.*own.accuracy, own.assumed));
+  }
   return inputs;
 }
-
-/// The force at the surface that a method makes of a reading, for inputs of other values.
-class MethodForce {
- public:
-  MethodForce(const RunSpec& spec, const MethodReadings& readings, double speed_m_s)
-      : spec_(spec), readings_(readings), speed_m_s_(speed_m_s), is_drum_(reads_torque(spec.rig.kind->traits)) {}
-
-  double calc_N(const Reading& at, double reading, const std::vector<double>& x) const {
-    const double lever_m = is_drum_ ? 0.5 * x[iso_input::kDiameter] : spec_.rig.lever_m();
-    if (readings_.method == kForceMethod) {
-      const double shown_N = reading + at.load_N * std::sin(x[iso_input::kOfMethod]);
-      return shown_N * models::calc_rolling_ratio(find_radius_m(at), is_drum_ ? 1.0 / lever_m : 0.0);
-    }
-    if (readings_.method == kPowerMethod) {  // the speed is that of the shaft times the radius
-      return reading / (at.speed_m_s * x[iso_input::kSpeed] / speed_m_s_ * lever_m / spec_.rig.lever_m());
-    }
-    if (readings_.method == kDecelerationMethod) return calc_deceleration_force_N(at, reading, lever_m, x);
-    return reading / lever_m;
-  }
-
- private:
-  double find_radius_m(const Reading& at) const { return calc_loaded_radius_m(spec_.tire.values, at.load_N); }
-
-  /// A surface speed follows from the turning of the drum, so that a larger drum decelerates more.
-  double calc_deceleration_force_N(const Reading& at, double deceleration_m_s2, double lever_m,
-                                   const std::vector<double>& x) const {
-    const double drum_kg = spec_.rig.inertia() / (lever_m * lever_m);
-    const double mass_kg = drum_kg + calc_spin_mass_kg(spec_.tire.values, find_radius_m(at));
-    return x[iso_input::kOfMethod] * mass_kg * deceleration_m_s2 * lever_m / spec_.rig.lever_m();
-  }
-
-  const RunSpec& spec_;
-  MethodReadings readings_;
-  double speed_m_s_;
-  bool is_drum_;
-};
 
 /// K_r for another diameter of a drum, over that for the rig's own; 1 on a belt.
 double calc_diameter_correction(const RunSpec& spec, double diameter_m) {
@@ -317,28 +231,30 @@ MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& c
   model.measurands = {{"RRc at 25 degC, 2 m drum", "rrc_25degC_2m_N_per_kN"}, {"RRc as measured" + by, "rrc_N_per_kN"}};
   model.inputs = make_iso_inputs(spec, cycles, readings, pressure_Pa, accuracies);
   model.left_out = {"mounting of the tire, and how the test repeats from day to day: this is one test"};
-  if (!is_in_cycles(readings.method)) {
+  const MethodBudget& budget = find_method_budget(readings.method);
+  if (budget.resistance_N == nullptr) {
     model.left_out.push_back("repeatability from cycle to cycle: the method is evaluated in the last cycle alone");
-  } else if (!has_scatter(spec, readings.method, cycles)) {
+  } else if (!has_scatter(spec, budget, cycles)) {
     model.left_out.push_back(fmt::format(
         "repeatability from cycle to cycle: it takes measurement_cycles = {} or more, with a sensor of the {}",
         kFewestCycles, readings.method));
   }
-  const bool is_coast = readings.method == kDecelerationMethod;
-  if (is_coast || readings.method == kForceMethod) model.left_out.push_back("the loaded radius of the tire");
-  if (is_coast && (!spec.sensors.has_value() || spec.sensors->count(quantities::kSpeed) == 0)) {
+  if (readings.method == kDecelerationMethod && !has_sensor(spec, budget)) {
     model.left_out.push_back("noise of the speed: the run has no sensor of the speed");
   }
-  if (is_coast) model.left_out.push_back("the bias of the method, up to 0.3 % of the rolling resistance");
-  if (readings.method == kPowerMethod) {
-    model.left_out.push_back("losses of the motor that are not the same loaded and in the skim test");
-  }
+  model.left_out.insert(model.left_out.end(), budget.left_out.begin(), budget.left_out.end());
   const double speed_m_s = model.inputs[iso_input::kSpeed].value;
   const IsoResponse response(simulate, speed_m_s, pressure_Pa);
-  const MethodForce force(spec, readings, speed_m_s);
-  model.evaluate = [&spec, response, force, skim = readings.skim, cycle = cycles.back()](const std::vector<double>& x) {
-    const double loaded_N = force.calc_N(cycle.loaded, skim + x[iso_input::kReading] + x[iso_input::kOffset], x);
-    const double skim_N = force.calc_N(cycle.skim, skim + x[iso_input::kOffset], x);
+  model.evaluate = [&spec, &budget, response, speed_m_s, skim = readings.skim,
+                    cycle = cycles.back()](const std::vector<double>& x) {
+    const bool is_drum = reads_torque(spec.rig.kind->traits);
+    const auto calc_force_N = [&](const Reading& at, double value) {
+      return budget.calc_force_N({spec, at, value, is_drum ? 0.5 * x[iso_input::kDiameter] : spec.rig.lever_m(),
+                                  x[iso_input::kSpeed] / speed_m_s,
+                                  budget.own.has_value() ? x[iso_input::kOfMethod] : 0.0});
+    };
+    const double loaded_N = calc_force_N(cycle.loaded, skim + x[iso_input::kReading] + x[iso_input::kOffset]);
+    const double skim_N = calc_force_N(cycle.skim, skim + x[iso_input::kOffset]);
     const double resistance_N =
         x[iso_input::kGain] * (loaded_N - skim_N) * response.calc_ratio(x[iso_input::kSpeed], x[iso_input::kPressure]);
     const double rrc = resistance_N / x[iso_input::kLoad];
