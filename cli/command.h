@@ -138,6 +138,7 @@ void add_fit_rolling_laws(CLI::App& fit, Action& action);
 void add_fit_default_road_load(CLI::App& fit, Action& action);
 void add_diagnose_command(CLI::App& app, Action& action);
 void add_plan_command(CLI::App& app, Action& action);
+void add_serve_command(CLI::App& app, Action& action);
 void add_import_command(CLI::App& app, Action& action);
 void add_new_command(CLI::App& app, Action& action);
 /// What a user says of logs beside the files; the second also what a set of them needs.

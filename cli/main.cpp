@@ -39,6 +39,9 @@ void add_examples(const CLI::App& app) {
        "  rollrig run iso_28580 --tire a50\n"
        "  rollrig run warm_up --tire a60 --set speed_km_h=120 --out warm\n"},
       {"sweep", "  rollrig sweep iso_28580 --tire a50 --vary pressure_kPa=210:310:20\n"},
+      {"serve",
+       "  rollrig serve\n"
+       "  rollrig serve --port 8765 --keep pages --tire mine.toml\n"},
       {"campaign",
        "  rollrig campaign new sums iso_28580 --tire a50 --draw-sd tire \\\n"
        "    --points 1000 --fidelity quasi_static\n"
@@ -124,6 +127,7 @@ int make_and_run(int argc, char** argv) {
   Action action;
   add_run_command(app, action);
   add_sweep_command(app, action);
+  add_serve_command(app, action);
   add_campaign_command(app, action);
   add_regress_command(app, action);
   add_validate_command(app, action);

@@ -9,7 +9,7 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME runtime)
 file(RELATIVE_PATH rollrig_libraries_from_programs "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
 set_target_properties(rollrig_cvodes rollrig_multibody rollrig_library PROPERTIES
   LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}" INSTALL_RPATH "$ORIGIN")
-set(rollrig_programs rollrig)
+set(rollrig_programs rollrig rollrig_serve_program)
 if(ROLLRIG_MPI_FOUND AND NOT ROLLRIG_DEBIAN_PACKAGES)  # a package would depend on Open MPI for all users
   list(APPEND rollrig_programs rollrig_mpi)
 endif()

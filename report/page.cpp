@@ -31,6 +31,18 @@ Json make_section(const Section& section) {
   return json;
 }
 
+/// JSON that can stand inside a script element.
+std::string escape_json(const Json& json) {
+  // "<" stands in strings alone, so nothing in the text can end the script.
+  return boost::algorithm::replace_all_copy(json.dump(-1, ' ', false, Json::error_handler_t::replace), "<", "\\u003c");
+}
+
+}  // namespace
+
+void Page::add(Section section) {
+  if (!section.blocks.empty()) sections.push_back(std::move(section));
+}
+
 Json make_payload(const Page& page) {
   Json json = {{"format", "rollrig-page/1"},
                {"command", page.command},
@@ -43,18 +55,6 @@ Json make_payload(const Page& page) {
   }
   for (const Section& section : page.sections) json["sections"].push_back(make_section(section));
   return json;
-}
-
-/// JSON that can stand inside a script element.
-std::string escape_json(const Json& json) {
-  // "<" stands in strings alone, so nothing in the text can end the script.
-  return boost::algorithm::replace_all_copy(json.dump(-1, ' ', false, Json::error_handler_t::replace), "<", "\\u003c");
-}
-
-}  // namespace
-
-void Page::add(Section section) {
-  if (!section.blocks.empty()) sections.push_back(std::move(section));
 }
 
 std::string make_html(const Page& page) {

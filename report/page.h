@@ -37,6 +37,9 @@ struct Page {
   void add(Section section);
 };
 
+/// What the script of a page draws: format, command, title, subtitle, about, clock, sections.
+Json make_payload(const Page& page);
+
 /// The page as one file of HTML that needs nothing else.
 /// Checked  tests/report/page_test.cpp, tests/report/browser_test.cpp
 std::string make_html(const Page& page);

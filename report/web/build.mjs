@@ -1,5 +1,5 @@
 // Makes the page: one HTML file with scripts, styles and licenses in it.
-// node build.mjs <page.html>
+// node build.mjs <page.html> <app.html>: the page of --html, and that of rollrig serve
 import { build } from 'esbuild';
 import { createHash } from 'node:crypto';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -7,7 +7,7 @@ import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const [htmlFile] = process.argv.slice(2);
+const [pageFile, appFile] = process.argv.slice(2);
 const read = (...path) => readFileSync(join(here, ...path), 'utf8');
 
 async function bundle(entry) {
@@ -44,14 +44,19 @@ const escapeScript = (text) => text.replaceAll('</script', '<\\/script').replace
 const escapeHtml = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
 
 function fill(text, name, value) {
-  if (!text.includes(`/*${name}*/`)) throw new Error(`template.html has no place for ${name}`);
+  if (!text.includes(`/*${name}*/`)) throw new Error(`the template has no place for ${name}`);
   return text.replace(`/*${name}*/`, () => value);
 }
-let html = read('template.html');
-html = fill(html, 'STYLE', await bundle('style.css'));
-const script = escapeScript(await bundle('src/main.js'));
-html = fill(html, 'SCRIPT', script);
-// The page's policy allows this one script, and no handler in an attribute.
-html = fill(html, 'SCRIPT_HASH', `sha256-${createHash('sha256').update(script).digest('base64')}`);
-html = fill(html, 'LICENSES', escapeHtml(collectLicenses()));
-writeFileSync(htmlFile, html);
+
+async function make(template, entry, styles) {
+  const style = (await Promise.all(styles.map(bundle))).join('');
+  const script = escapeScript(await bundle(entry));
+  let html = fill(read(template), 'STYLE', style);
+  html = fill(html, 'SCRIPT', script);
+  // The page's policy allows this one script, and no handler in an attribute.
+  html = fill(html, 'SCRIPT_HASH', `sha256-${createHash('sha256').update(script).digest('base64')}`);
+  return fill(html, 'LICENSES', escapeHtml(collectLicenses()));
+}
+
+writeFileSync(pageFile, await make('template.html', 'src/main.js', ['style.css']));
+writeFileSync(appFile, await make('serve_template.html', 'src/serve/serve.js', ['style.css', 'serve.css']));

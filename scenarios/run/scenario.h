@@ -66,6 +66,8 @@ struct SettingInfo {
   std::string range;
   std::string fallback;  // as text, in the unit of the key
   std::string doc;
+  std::optional<Range> limits = {};       // of a single number, in the unit of the key
+  std::vector<std::string> choices = {};  // of a word
 };
 
 /// What a scenario says of itself.

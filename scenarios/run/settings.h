@@ -65,6 +65,17 @@ inline std::string show_range(const Field&, const Choice& member) {
   return boost::algorithm::join(member.allowed, " or ");
 }
 
+template <class Member>
+SettingInfo make_setting_info(const Field& field, const Member& member) {
+  SettingInfo info{field.key, show_range(field, member), show_default(field, member), field.doc};
+  if constexpr (std::is_arithmetic_v<Member> || std::is_same_v<Member, std::optional<double>>) {
+    info.limits = field.range;
+  } else if constexpr (std::is_same_v<Member, Choice>) {
+    info.choices = member.allowed;
+  }
+  return info;
+}
+
 }  // namespace detail
 
 template <class Settings>
@@ -72,7 +83,7 @@ std::vector<SettingInfo> list_settings() {
   std::vector<SettingInfo> list;
   Settings settings;
   Settings::visit(settings, [&list](const Field& field, auto& member) {
-    list.push_back({field.key, detail::show_range(field, member), detail::show_default(field, member), field.doc});
+    list.push_back(detail::make_setting_info(field, member));
   });
   return list;
 }

@@ -37,8 +37,10 @@ const std::vector<std::string> kOrder{"include/rollrig",
                                       "report",
                                       "campaigns",
                                       "api",
+                                      "serve",
                                       "cli",
                                       "cli/mpi",
+                                      "cli/serve",
                                       "validation",
                                       "validation/generator",
                                       "validation/scoring",
@@ -66,7 +68,8 @@ const std::map<std::string, std::set<std::string>> kPackages{
     {"cvodes/|nvector/|sunmatrix/|sunlinsol/", {"sim/cvodes_integrator.cpp"}},
     {"toml\\+\\+/", {"sim/core/config.cpp"}},
     {"Simbody.h", {"rigs/multibody"}},
-    {"CLI/", {"cli", "validation/program"}},
+    {"CLI/", {"cli", "cli/serve", "validation/program"}},
+    {"httplib.h", {"serve/http.h"}},
     {"nlohmann/", {"sim/core/json.h"}},
     {"ceres/",
      {"sim/core/scalar.h", "estimation/rolling_law/j2452_fit.cpp", "estimation/tire_fit/fit_solution.cpp",
@@ -86,8 +89,8 @@ const std::map<std::string, std::set<std::string>> kPackages{
 
 std::string folder_of(const std::string& path) {
   if (path.rfind("rollrig/", 0) == 0) return "include/rollrig";
-  for (const char* inner : {"include/rollrig", "sim/core", "rigs/multibody", "cli/mpi", "validation/generator",
-                            "validation/scoring", "validation/program"}) {
+  for (const char* inner : {"include/rollrig", "sim/core", "rigs/multibody", "cli/mpi", "cli/serve",
+                            "validation/generator", "validation/scoring", "validation/program"}) {
     if (path.rfind(inner + std::string("/"), 0) == 0) return inner;
   }
   return path.substr(0, path.find('/'));
@@ -100,7 +103,7 @@ std::size_t rank_of(const std::string& folder) {
 
 const std::vector<const char*> kTops{"include",    "sim",       "tables",  "models",    "rigs",       "measurements",
                                      "estimation", "scenarios", "exports", "diagnosis", "validation", "report",
-                                     "campaigns",  "api",       "cli",     "examples"};
+                                     "campaigns",  "api",       "serve",   "cli",       "examples"};
 
 template <class Visit>
 void visit_includes(Visit&& visit) {

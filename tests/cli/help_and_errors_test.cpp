@@ -30,7 +30,7 @@ TEST_CASE("describe explains scenarios, effects and assets within 80 columns", "
 
 TEST_CASE("help stands everywhere", "[fast]") {
   for (const char* command : {"", "run", "sweep", "regress", "validate", "list", "describe", "fit", "fit tire",
-                              "fit road-load", "diagnose", "export", "completion", "man"}) {
+                              "fit road-load", "diagnose", "export", "serve", "completion", "man"}) {
     const auto run = run_program(std::string(command) + " --help");
     INFO(command);
     CHECK(run.status == 0);

@@ -67,7 +67,7 @@ export class Chart {
     this.element.style.height = `${this.height(800)}px`;
     this.instance = null;
     all.push(this);
-    onThemeChange(() => this.redraw());
+    this.leaveTheme = onThemeChange(() => this.redraw());
     watchNear.observe(this.element);
     watchSize.observe(this.element);
   }
@@ -95,6 +95,18 @@ export class Chart {
     if (this.afterDraw) this.afterDraw(this);
   }
 
+  /// Draws what has changed in the data, at the same size and zoom.
+  refresh() {
+    if (!this.instance) return;
+    const zoom = this.zoom();
+    const option = this.makeOption(this.width);
+    if (zoom) option.dataZoom.forEach((one) => Object.assign(one, { startValue: zoom[0], endValue: zoom[1] }));
+    this.instance.dispatchAction({ type: 'hideTip' });
+    this.instance.setOption(option, { notMerge: true });
+    this.instance.getZr().flush();
+    if (this.afterDraw) this.afterDraw(this);
+  }
+
   /// Range shown, where the chart can be zoomed.
   zoom() {
     const option = this.instance && this.instance.getOption();
@@ -114,6 +126,20 @@ const watchSize = new ResizeObserver((entries) =>
     if (chart.instance && Math.abs(chart.element.clientWidth - chart.width) > 1) chart.redraw();
   }),
 );
+
+/// Charts within an element.
+export const chartsIn = (element) => all.filter((chart) => element.contains(chart.element));
+
+/// To be called when an element goes: its charts go with it.
+export function forgetChartsIn(element) {
+  for (const chart of chartsIn(element)) {
+    watchNear.unobserve(chart.element);
+    watchSize.unobserve(chart.element);
+    chart.leaveTheme();
+    if (chart.instance) chart.instance.dispose();
+    all.splice(all.indexOf(chart), 1);
+  }
+}
 
 /// All charts at the width that they have now, those out of sight too: for paper and for tests.
 export function drawAll() {

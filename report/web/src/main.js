@@ -15,16 +15,17 @@ import { animationBlock } from './animation/animation.js';
 import { makeThemeButton, setOnPaper, startTheme } from './theme.js';
 import { timeBarBlock } from './timebar.js';
 
-const kBlocks = {
+export const kBlocks = {
   bars: barsBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
   map: mapBlock, pre: preBlock, animation: animationBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
   time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
 };
 
-const slug = (title) => title.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
+export const slug = (title) => title.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
 
-function makeSection(section, context) {
-  const blocks = section.blocks.map((block) => kBlocks[block.type](block, { ...context, section }));
+/// `make(block, context)` draws a block.
+export function makeSection(section, context, make = (block, it) => kBlocks[block.type](block, it)) {
+  const blocks = section.blocks.map((block) => make(block, { ...context, section }));
   const body = section.folded
     ? h('details', { class: 'fold' }, h('summary', null, section.folded), blocks)
     : blocks;
@@ -71,4 +72,4 @@ function start() {
   document.documentElement.dataset.ready = 'yes';
 }
 
-start();
+if (document.getElementById('payload')) start();  // another page makes its sections itself

@@ -16,7 +16,11 @@ function apply() {
   listeners.forEach((listener) => listener());
 }
 
-export const onThemeChange = (listener) => listeners.push(listener);
+/// Returns what ends that.
+export function onThemeChange(listener) {
+  listeners.push(listener);
+  return () => listeners.splice(listeners.indexOf(listener), 1);
+}
 
 /// A color of style.css.
 export const color = (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim();

@@ -1,0 +1,47 @@
+// The page of `rollrig serve`: controls whose runs are simulated as they move, and folders that are diagnosed. Physics
+// is in the program alone: this page asks it and draws.
+import { chartCount, drawAll } from '../chart.js';
+import { h } from '../dom.js';
+import { makeThemeButton, startTheme } from '../theme.js';
+import { get } from './api.js';
+import { listenForDrops } from './drop.js';
+import { latencies, Live } from './live.js';
+import { makeProblem } from './problem.js';
+import { Sets } from './sets.js';
+
+const kViews = [['try', 'Try a test'], ['sets', 'Diagnose a folder']];
+
+function makeViews(views) {
+  const tabs = kViews.map(([id, name]) => h('button', { type: 'button', role: 'tab', id: `tab-${id}`, 'aria-controls': `view-${id}`, class: 'tab', onclick: () => show(id) }, name));
+  const panels = kViews.map(([id]) => h('div', { id: `view-${id}`, role: 'tabpanel', 'aria-labelledby': `tab-${id}` }, views[id].element));
+  const show = (shown) => kViews.forEach(([id], i) => {
+    tabs[i].setAttribute('aria-selected', String(id === shown));
+    panels[i].hidden = id !== shown;
+  });
+  show('try');
+  return { tabs: h('div', { role: 'tablist', 'aria-label': 'What to do', class: 'tabs' }, tabs), panels, show };
+}
+
+async function start() {
+  startTheme();
+  const page = document.getElementById('page');
+  try {
+    const choices = await get('/api/choices');
+    const views = { try: new Live(choices), sets: new Sets(choices) };
+    const { tabs, panels, show } = makeViews(views);
+    page.replaceChildren(
+      h('div', { class: 'top' }, h('span', { class: 'brand' }, 'rollrig ', h('span', null, 'serve')), tabs, h('div', { class: 'tools' }, makeThemeButton())),
+      ...panels, h('footer', null, h('p', null, `Served by rollrig ${choices.version} on this computer. Charts: Apache ECharts, Apache License 2.0.`)));
+    listenForDrops((dropped) => {
+      show('sets');
+      views.sets.take(dropped);
+    });
+    addEventListener('beforeprint', drawAll);
+  } catch (error) {
+    page.replaceChildren(makeProblem(error.problem || { what: error.message }));
+  }
+  window.rollrig = { chartCount, drawAll, latencies };
+  document.documentElement.dataset.ready = 'yes';
+}
+
+start();

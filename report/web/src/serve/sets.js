@@ -1,0 +1,176 @@
+// From a dropped folder to a diagnosis: files, columns, validation, progress, result.
+import { h } from '../dom.js';
+import { clockTime } from '../format.js';
+import { get, keptAddress, post, ProblemError, upload } from './api.js';
+import { bytesText, makeColumns, makeGuesses } from './columns.js';
+import { readChosen } from './drop.js';
+import { makeProblem } from './problem.js';
+import { Results } from './results.js';
+
+const kBetweenLooks_ms = 300;
+const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+const kWords = {
+  set: 'A measurement set, as its set.toml describes it.',
+  mapping: 'Logs with a mapping (import.toml), by which they are joined.',
+  logs: 'Logs without a description. Say which tire and which rig, and check the columns.',
+};
+
+export class Sets {
+  constructor(choices) {
+    this.choices = choices;
+    this.results = new Results({ keepsOrder: true });
+    this.steps = h('div', { class: 'steps' });
+    const chooser = h('input', { type: 'file', id: 'folder', webkitdirectory: true, multiple: true, class: 'hiddenfile', onchange: () => this.take(readChosen(chooser.files)) });
+    this.zone = h('div', { class: 'dropzone' }, h('p', null, 'Drop a folder of CSV files here, or anywhere on this page.'),
+      h('p', { class: 'note' }, 'One log for each run, or a measurement set with its set.toml. Tire and rig files (.toml) may lie beside them. Files go to rollrig on this computer and nowhere else.'),
+      h('label', { for: 'folder', class: 'tool' }, 'Choose a folder'), chooser);
+    this.element = h('div', { class: 'setbench' }, this.zone, this.steps, this.results.element);
+  }
+
+  #step(title, ...content) {
+    const step = h('section', { class: 'step' }, h('h2', null, title), content);
+    return step;
+  }
+
+  #fail(error, holder) {
+    if (!(error instanceof ProblemError)) throw error;
+    holder.replaceChildren(makeProblem(error.problem));
+  }
+
+  /// Files that were dropped: {name, files: [{name, file}]}.
+  async take({ name, files }) {
+    this.results.clear();
+    const { limits, endings } = this.choices;
+    const wanted = files.filter((one) => endings.some((ending) => one.name.toLowerCase().endsWith(ending)) && !one.name.split('/').some((part) => part.startsWith('.')));
+    const size = wanted.reduce((sum, one) => sum + one.file.size, 0);
+    this.state = h('p', { role: 'status' });
+    const problem = h('div');
+    this.steps.replaceChildren(this.#step('Files', this.state, problem));
+    try {
+      if (!wanted.length) throw new ProblemError({ what: 'there is no file that rollrig reads among what was dropped', allowed: endings.join(', ') });
+      if (size > limits.set_bytes || wanted.length > limits.files) throw new ProblemError({ what: `at most ${limits.files} files of ${bytesText(limits.set_bytes)} in all are taken` });
+      const large = wanted.find((one) => one.file.size > limits.file_bytes);
+      if (large) throw new ProblemError({ what: `a file of more than ${bytesText(limits.file_bytes)} is not taken`, file: large.name });
+      this.id = (await post('/api/sets', { name })).set;
+      for (const [i, one] of wanted.entries()) {
+        this.state.textContent = `${i + 1} of ${wanted.length}: ${one.name}`;
+        await upload(`/api/sets/${this.id}/files?name=${encodeURIComponent(one.name)}`, one.file);
+      }
+      const left = files.length - wanted.length;
+      this.state.textContent = `${wanted.length} ${wanted.length === 1 ? 'file' : 'files'}, ${bytesText(size)}${left ? `; ${left} of other kinds left out` : ''}.`;
+      this.said = { tire: '', rig: '', columns: {}, units: {}, values: {}, rests_min: {} };
+      await this.#look(true);
+    } catch (error) {
+      this.#fail(error, problem);
+    }
+  }
+
+  /// Guesses again with what the person has said.
+  async #look(isFirst) {
+    const number = (this.looks = (this.looks || 0) + 1);
+    if (isFirst) {
+      const found = await post(`/api/sets/${this.id}/columns`, {});
+      for (const kind of ['tire', 'rig']) this.said[kind] = found.files.find((file) => file.kind === kind)?.name || '';
+      this.found = found;
+    }
+    if (this.found.kind === 'logs' && this.said.tire && this.said.rig) this.found = await post(`/api/sets/${this.id}/columns`, this.said);
+    if (number === this.looks) this.#showLook();
+  }
+
+  #showLook() {
+    const { found, said } = this;
+    const again = () => this.#look(false).catch((error) => this.#fail(error, this.lookProblem));
+    const select = (kind, label, items) => h('label', null, label, ' ', h('select', { id: `set-${kind}`, onchange: (event) => {
+      said[kind] = event.target.value;
+      again();
+    } }, h('option', { value: '' }, 'choose'), found.files.filter((file) => file.kind === kind).map((file) => h('option', { value: file.name, selected: said[kind] === file.name }, `${file.name} (dropped)`)),
+    items.map(({ name, note }) => h('option', { value: name, selected: said[kind] === name }, note ? `${name} \u2013 ${note}` : name))));
+    this.lookProblem = h('div');
+    const isLogs = found.kind === 'logs';
+    const isReady = !isLogs || (!found.problem && found.columns);
+    this.checked = h('div');
+    this.confirm = h('button', { type: 'button', class: 'tool main', id: 'confirm', disabled: !isReady, onclick: () => this.#validate() }, isLogs ? 'These columns are right: make the set and validate it' : 'Validate the set');
+    const step = this.#step(isLogs ? 'Columns' : 'Set', h('p', { class: 'note' }, kWords[found.kind]),
+      isLogs && h('div', { class: 'pairs' }, select('tire', 'Tire', this.choices.tires), select('rig', 'Rig', this.choices.rigs)),
+      isLogs && makeColumns(found, said, again), isLogs && this.#makeQuestions(again), this.lookProblem, isLogs && makeGuesses(found.guesses, found.targets), this.confirm, this.checked);
+    if (found.problem) this.lookProblem.replaceChildren(makeProblem(found.problem));
+    this.steps.replaceChildren(this.steps.firstChild, step);
+  }
+
+  /// What logs may not tell.
+  #makeQuestions(again) {
+    const { said } = this;
+    const order = h('select', { id: 'date-order', onchange: () => {
+      said.date_order = order.value;
+      again();
+    } }, ['', 'ymd', 'dmy', 'mdy'].map((one) => h('option', { value: one, selected: (said.date_order || '') === one }, one || 'as guessed')));
+    const cold = h('input', { type: 'number', id: 'cold', class: 'field', step: 'any', value: said.cold_pressure_kPa ?? '', onchange: () => {
+      said.cold_pressure_kPa = cold.value === '' ? undefined : cold.valueAsNumber;
+      again();
+    } });
+    return h('div', { class: 'pairs' }, h('label', null, 'Order of dates ', order), h('label', null, 'Pressure of the cold tire ', cold, ' kPa'));
+  }
+
+  async #validate() {
+    this.confirm.disabled = true;
+    this.checked.replaceChildren(h('p', { role: 'status', class: 'busy' }, 'The set is read and held against the simulation\u2026'));
+    try {
+      this.#showChecked(await post(`/api/sets/${this.id}/validate`, this.said));
+    } catch (error) {
+      this.#fail(error, this.checked);
+    }
+    this.confirm.disabled = false;
+  }
+
+  #showChecked({ what, warnings, is_good: isGood }) {
+    this.run = h('button', { type: 'button', class: 'tool main', id: 'diagnose', onclick: () => this.#diagnose() }, 'Diagnose');
+    this.progress = h('div');
+    this.only = this.choices.effects.map(({ id, label }) => ({ id, box: h('input', { type: 'checkbox', id: `only-${id}` }), label }));
+    const only = h('details', { class: 'group' }, h('summary', null, 'Compare only some effects'), h('p', { class: 'note' }, 'Without a choice all effects are compared, as they should be unless you know better.'),
+      h('div', { class: 'only' }, this.only.map(({ box, label }) => h('label', null, box, ' ', label))));
+    this.checked.replaceChildren(h('div', { class: `lead ${isGood ? (warnings.length ? 'doubt' : 'good') : 'bad'}` }, h('div', null, h('p', null, `Validated: ${what}`))),
+      h('ul', { class: 'warnings' }, warnings.map((warning) => h('li', null, h('strong', null, 'warning: '), warning))), only, this.run, this.progress);
+    this.checked.scrollIntoView({ block: 'nearest' });
+  }
+
+  async #diagnose() {
+    this.run.disabled = true;
+    this.results.clear();
+    try {
+      const { job } = await post(`/api/sets/${this.id}/diagnose`, { only: Object.fromEntries(this.only.filter(({ box }) => box.checked).map(({ id }) => [id, true])) });
+      await this.#follow(job);
+    } catch (error) {
+      this.#fail(error, this.progress);
+    }
+    this.run.disabled = false;
+  }
+
+  async #follow(job) {
+    const bar = h('progress', { max: 1, 'aria-label': 'Progress of the diagnosis' });
+    const text = h('span', { role: 'status' });
+    const cancel = h('button', { type: 'button', class: 'tool', id: 'cancel', onclick: () => post(`/api/jobs/${job}/cancel`) }, 'Cancel');
+    this.progress.replaceChildren(h('div', { class: 'progress' }, bar, text, cancel));
+    let start_ms = performance.now();
+    let last = 0;
+    for (;;) {
+      const now = await get(`/api/jobs/${job}`);
+      if (now.state === 'done') return this.#showDiagnosis(now.result);
+      if (now.state === 'failed') return this.progress.replaceChildren(makeProblem(now.error));
+      if (now.state === 'canceled') return this.progress.replaceChildren(h('p', null, 'Canceled. Nothing was kept.'));
+      if (!(now.done >= last)) start_ms = performance.now(); // more work has turned out to follow
+      last = now.done ?? 0;
+      const elapsed_s = (performance.now() - start_ms) / 1000;
+      if (now.state === 'running' && now.done > 0) bar.value = now.done;
+      const left = now.done > 0.02 && elapsed_s > 2 ? `, about ${clockTime((elapsed_s * (1 - now.done)) / now.done)} left` : '';
+      text.textContent = now.state === 'waiting' ? 'waits for another diagnosis' : `${Math.round(100 * (now.done ?? 0))} %${left}  ${now.stage}`;
+      await wait(kBetweenLooks_ms);
+    }
+  }
+
+  #showDiagnosis({ page, kept }) {
+    this.progress.replaceChildren(h('p', { class: 'kept' }, 'Kept: ', h('a', { href: keptAddress(kept), target: '_blank', rel: 'noopener' }, kept), ` in ${this.choices.keep_folder}/`));
+    this.results.show(page);
+    this.results.element.scrollIntoView({ block: 'start' });
+  }
+}

@@ -1,0 +1,68 @@
+#include "serve/error_json.h"
+
+#include <boost/algorithm/string/replace.hpp>
+
+#include <new>
+
+namespace rollrig::serve {
+namespace {
+
+/// What stands for places that a person at the page does not know.
+bool is_place(const std::string& file) {
+  return !file.empty() && file != "command line" && file != "--set" && file != "the page";
+}
+
+Json make_problem_json(const InputProblem& problem, const std::string& private_folder) {
+  const auto open = [&](const std::string& text) {
+    return private_folder.empty() ? text : boost::algorithm::replace_all_copy(text, private_folder, "");
+  };
+  Json json{{"what", open(problem.what)}};
+  if (is_place(problem.file)) json["file"] = open(problem.file);
+  if (problem.line > 0) json["line"] = problem.line;
+  const auto add = [&](const char* key, const std::string& text) {
+    if (!text.empty()) json[key] = open(text);
+  };
+  add("key", problem.key);
+  add("value", problem.value);
+  add("allowed", problem.allowed);
+  add("nearest", problem.nearest);
+  return json;
+}
+
+}  // namespace
+
+int find_status(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const Refusal& refusal) {
+    return refusal.status();
+  } catch (const InputError&) {
+    return 422;
+  } catch (const RunFailure&) {
+    return 422;
+  } catch (const Interrupted&) {
+    return 503;
+  } catch (const std::bad_alloc&) {
+    return 503;
+  } catch (...) {
+    return 500;
+  }
+}
+
+Json make_error_json(const std::exception_ptr& error, const std::string& private_folder) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const InputError& wrong) {
+    return make_problem_json(wrong.problem(), private_folder);
+  } catch (const Interrupted&) {
+    return {{"what", "stopped"}};
+  } catch (const std::bad_alloc&) {
+    return {{"what", "the memory of this computer does not suffice"}};
+  } catch (const std::exception& other) {
+    return make_problem_json({other.what(), "", 0, "", "", "", ""}, private_folder);
+  } catch (...) {
+    return {{"what", "a mistake in rollrig"}};
+  }
+}
+
+}  // namespace rollrig::serve

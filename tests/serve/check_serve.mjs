@@ -1,0 +1,120 @@
+// Uses the page of rollrig serve in headless Chromium: sliders, wrong numbers, effects, another test, a dropped folder up
+// to its diagnosis. One line a finding; exit status 1 where one is bad.
+// node check_serve.mjs <rollrig> <folder for files> <folder to drop> [--screenshots DIR]
+import { mkdirSync, readdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { quantile, ServePage, startServer, wait } from './serve_page.mjs';
+
+const [program, folder, dropped] = process.argv.slice(2);
+const shots = process.argv.includes('--screenshots') ? process.argv[process.argv.indexOf('--screenshots') + 1] : null;
+if (shots) mkdirSync(shots, { recursive: true });
+// Tests run side by side, on machines that do other work: this finds a page that waits, bench/serve_latency.mjs measures.
+const kMostLatency_ms = 1000;
+const problems = [];
+const check = (isGood, text) => {
+  console.log(`${isGood ? 'ok' : 'BAD'}  ${text}`);
+  if (!isGood) problems.push(text);
+};
+
+const server = await startServer(program, ['--keep', 'kept'], folder);
+const page = new ServePage();
+
+/// The page's rolling resistance coefficient.
+const kRrc = `Number([...document.querySelectorAll('.lines tr')].find((row) => row.firstChild.textContent === 'RRc').lastChild.textContent.split(' ')[0])`;
+const kCurves = `[...document.querySelectorAll('.times svg path')].map((path) => path.getAttribute('d')).join()`;
+const settled = () => page.until("!document.querySelector('.status').classList.contains('busy')");
+
+async function checkSliders() {
+  const before = { rrc: await page.evaluate(kRrc), curves: await page.evaluate(kCurves), now: await page.evaluate("document.querySelector('.readings').textContent") };
+  await page.drag('#setting-pressure_kPa', Array.from({ length: 20 }, (_, i) => 0.5 - 0.02 * i), 60);
+  await settled();
+  await wait(200);
+  const pressure = await page.evaluate("document.querySelector('#setting-pressure_kPa').value");
+  check(pressure < 200, `the slider was moved with the mouse: ${pressure} kPa`);
+  check((await page.evaluate(kRrc)) > before.rrc, 'the RRc rises as the pressure falls');
+  check((await page.evaluate(kCurves)) !== before.curves, 'the curves have changed');
+  check((await page.evaluate("document.querySelector('.readings').textContent")) !== before.now, 'the readings beside the animation have changed');
+  const latencies = await page.evaluate('window.rollrig.latencies');
+  const most_ms = quantile(latencies, 0.95);
+  check(latencies.length > 3 && most_ms < kMostLatency_ms, `from the slider to the curves: ${Math.round(quantile(latencies, 0.5))} ms, 95th percentile ${Math.round(most_ms)} ms of ${latencies.length}`);
+  await page.click('#setting-pressure_kPa ~ *, .control.moved .reset');
+  await settled();
+  await wait(200);
+  check((await page.evaluate(kRrc)) === before.rrc, 'back to the default: the same RRc');
+}
+
+async function checkWrongNumber() {
+  await page.type('#setting-pressure_kPa-field', '5');
+  await page.until("document.querySelector('.control .problem')");
+  const text = await page.evaluate("document.querySelector('#setting-pressure_kPa').closest('.control').querySelector('.problem').textContent");
+  check(/>= 50 and <= 1000/.test(text), `a wrong number is said beside its control: ${text}`);
+  await page.click('.control.moved .reset');
+  await page.until("!document.querySelector('.problem')");
+}
+
+async function checkEffectsAndTests() {
+  const before = await page.evaluate(kRrc);
+  await page.click('.controls .group:nth-of-type(2) > summary, details.group:has(.effects) > summary');
+  await page.click('#effect-windage');
+  await settled();
+  await page.until(`${kRrc} !== ${before}`);
+  check(true, 'an effect changes the RRc');
+  await page.click('#effect-windage');
+  await settled();
+  await page.choose('#scenario', 'speed_sweep');
+  await page.until("document.querySelector('h1').textContent.startsWith('RRc at several speeds')");
+  check(true, 'another test is shown');
+  await page.choose('#scenario', 'iso_28580');
+  await page.until(`document.querySelector('h1').textContent.startsWith('Whole ISO')`);
+}
+
+async function checkDrop() {
+  await page.drop([dropped]);
+  const isIn = await page.until("document.querySelector('#confirm') || document.querySelector('#set-tire')", 3000).then(() => true, () => false);
+  if (!isIn) {
+    check(false, 'a folder that is dropped is read');
+    await page.drop(readdirSync(dropped).map((name) => join(dropped, name)));
+  }
+  await page.until("document.querySelector('#confirm:enabled')");
+  const shown = await page.evaluate("document.querySelector('.columnstable').textContent");
+  check(/Geschwindigkeit/.test(shown), 'the columns of the logs are guessed and shown');
+  await page.screenshot(shots, 'columns', true);
+  await page.click('#confirm');
+  await page.until("document.querySelector('#diagnose')");
+  check(/Validated/.test(await page.evaluate("document.querySelector('.step:last-child').textContent")), 'the set is validated');
+  await page.click('details.group:has(.only) > summary');
+  for (const id of ['bearing_warmup', 'load_exponent']) await page.click(`#only-${id}`);
+  await page.click('#diagnose');
+  await page.until("document.querySelector('progress')");
+  check(true, 'the diagnosis shows its progress');
+  await page.until("document.querySelector('.setbench .kept a')", 120000);
+  const { href } = await page.evaluate("({ href: document.querySelector('.setbench .kept a').href })");
+  check(readdirSync(join(folder, 'kept')).length === 1, 'the page is kept');
+  check((await page.evaluate("document.querySelectorAll('.setbench main section').length")) > 3, 'the diagnosis is shown');
+  await page.screenshot(shots, 'diagnosis');
+  await page.evaluate(`window.scrollTo(0, 0)`);
+  return href;
+}
+
+try {
+  await page.open(server.address);
+  await page.screenshot(shots, 'start');
+  await checkSliders();
+  await checkWrongNumber();
+  await checkEffectsAndTests();
+  const kept = await checkDrop();
+  const own = new URL(server.address).origin;
+  const strange = page.requests.filter((url) => !url.startsWith(`${own}/`) && !/^(data|blob|about):/.test(url));
+  check(strange.length === 0, `no request leaves the server ${strange.join(' ')}`);
+  const unexpected = page.messages.filter((text) => !/status of 422/.test(text));  // that of the wrong number
+  check(unexpected.length === 0, `nothing on the console ${unexpected.join('; ')}`);
+  await page.chromium.send('Page.navigate', { url: kept });
+  await page.until("document.documentElement?.dataset.ready === 'yes' && document.querySelectorAll('section').length > 3");
+  check(true, 'the kept page opens from its address');
+} catch (error) {
+  check(false, error.stack);
+  await page.screenshot(shots, 'failure', true);
+}
+await page.close();
+await server.end();
+process.exit(problems.length ? 1 : 0);
