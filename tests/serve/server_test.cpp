@@ -203,10 +203,7 @@ TEST_CASE("junk is refused, the server lives, memory stays flat", "[slow]") {
   const std::string head =
       "Host: 127.0.0.1:" + std::to_string(port) + "\r\nX-Rollrig-Token: " + bench.server.token() + "\r\n";
   const std::string junk(10'000'000, 'x');
-  bench.post("/api/run", kRun);
-  send_raw(port, "POST /api/run HTTP/1.1\r\n" + head + "Content-Length: 10000000\r\n\r\n" + junk);
-  const double before_MiB = find_memory_MiB();
-  for (int i = 0; i < 5; ++i) {
+  const auto throw_junk = [&] {
     CHECK(first_line(send_raw(port, "POST /api/run HTTP/1.1\r\n" + head + "Content-Length: 10000000\r\n\r\n" + junk)) ==
           "HTTP/1.1 413 Payload Too Large");
     CHECK(first_line(send_raw(port, "POST /api/run HTTP/1.1\r\n" + head +
@@ -220,12 +217,16 @@ TEST_CASE("junk is refused, the server lives, memory stays flat", "[slow]") {
     std::string ranges = "GET /api/choices HTTP/1.1\r\n" + head + "Range: bytes=0-";  // as many as fit
     while (ranges.size() < 8000) ranges += ",0-";
     CHECK_THAT(first_line(send_raw(port, ranges + "\r\n\r\n")), Catch::Contains(" 4"));
-  }
+  };
+  bench.post("/api/run", kRun);
+  for (int i = 0; i < 3; ++i) throw_junk();  // what this program itself holds to send it stays with it
+  const double before_MiB = find_memory_MiB();
+  for (int i = 0; i < 5; ++i) throw_junk();
   const auto nested = bench.make_client().Post("/api/run", std::string(900'000, '['), "application/json");
   REQUIRE(nested);
   CHECK(nested->status == 422);
   CHECK(bench.is_alive());
-  CHECK(find_memory_MiB() - before_MiB < 20.0);  // twice what one of these requests holds
+  CHECK(find_memory_MiB() - before_MiB < 20.0);  // of 250 MB that were sent
 }
 
 TEST_CASE("a hundred clients are answered, one after the other", "[slow]") {

@@ -95,14 +95,11 @@ export class Chart {
     if (this.afterDraw) this.afterDraw(this);
   }
 
-  /// Draws what has changed in the data, at the same size and zoom.
+  /// Draws what has changed in the data, at the same size and zoom. The series must be those of before.
   refresh() {
     if (!this.instance) return;
-    const zoom = this.zoom();
-    const option = this.makeOption(this.width);
-    if (zoom) option.dataZoom.forEach((one) => Object.assign(one, { startValue: zoom[0], endValue: zoom[1] }));
-    this.instance.dispatchAction({ type: 'hideTip' });
-    this.instance.setOption(option, { notMerge: true });
+    const { dataZoom, ...option } = this.makeOption(this.width);
+    this.instance.setOption(option);
     this.instance.getZr().flush();
     if (this.afterDraw) this.afterDraw(this);
   }

@@ -1,6 +1,6 @@
 // Tire, test, its settings and the effects: what the next run is made from.
 import { h } from '../dom.js';
-import { Slider } from './slider.js';
+import { capitalized, Slider } from './slider.js';
 
 /// Settings that stand above all others; those that a test does not have are left out.
 const kFirst = ['pressure_kPa', 'load_N', 'speed_km_h', 'ambient_degC'];
@@ -83,7 +83,7 @@ export class Controls {
 
   #addWord(info) {
     const word = { value: null };
-    word.element = this.#select(`setting-${info.key}`, info.label, info.choices.map((name) => ({ name })), info.fallback, (value) => {
+    word.element = this.#select(`setting-${info.key}`, capitalized(info.label), info.choices.map((name) => ({ name })), info.fallback, (value) => {
       word.value = value === info.fallback ? null : value;
       this.#changed();
     });
@@ -95,7 +95,7 @@ export class Controls {
       const box = h('input', { type: 'checkbox', id: `effect-${effect.id}` });
       const sliders = effect.parameters.map((info) => new Slider(info, { id: `effect-${effect.id}-${info.key}`, onInput: () => this.#changed() }));
       const inside = h('div', { class: 'inside', hidden: true }, sliders.map((slider) => slider.element));
-      const row = { effect, box, sliders, element: h('div', { class: 'effect' }, h('label', { title: effect.summary }, box, ' ', effect.label), inside) };
+      const row = { effect, box, sliders, element: h('div', { class: 'effect' }, h('label', { title: effect.summary }, box, ' ', capitalized(effect.label)), inside) };
       sliders.forEach((slider, i) => slider.setUsed(effect.parameters[i].center));
       box.addEventListener('change', () => {
         inside.hidden = !box.checked;
@@ -149,9 +149,10 @@ export class Controls {
 
   /// A problem stands beside the control that it names, else below all of them.
   setProblem(problem) {
-    const all = [...this.sliders.values(), ...this.effectRows.flatMap((row) => (row.box.checked ? row.sliders : []))];
-    const at = problem && all.find((slider) => slider.info.key === problem.key);
-    all.forEach((slider) => slider.setProblem(slider === at ? problem : null));
+    const named = [...this.sliders.values()].map((slider) => [`[settings] ${slider.info.key}`, slider]).concat(
+      this.effectRows.flatMap((row) => row.sliders.map((slider) => [`[effects.${row.effect.id}] ${slider.info.key}`, slider])));
+    const at = problem && named.find(([name, slider]) => name === problem.key || (slider.info.key === problem.key && slider.value !== null))?.[1];
+    named.forEach(([, slider]) => slider.setProblem(slider === at ? problem : null));
     this.otherProblem = problem && !at ? problem : null;
     return this.otherProblem;
   }

@@ -1,5 +1,5 @@
-// The sections of a result, which stay in place when the next one comes: charts take new data, the rest is made anew.
-// What is in sight comes first.
+// The sections of a result, which stay in place when the next one comes: charts and animation take new data, the rest is
+// made again. What is in sight comes first, the rest when the slider rests.
 import { chartsIn, forgetChartsIn } from '../chart.js';
 import { Clock } from '../clock.js';
 import { h } from '../dom.js';
@@ -7,6 +7,11 @@ import { kBlocks, makeSection, slug } from '../main.js';
 
 /// Blocks whose element reads its block anew when it is drawn.
 const kInPlace = ['times', 'bars', 'curves', 'time_bar'];
+/// Blocks that take new data in place for now, and are made again when the slider rests: the scale of their colors may
+/// have to change.
+const kInPlaceForNow = ['animation'];
+
+const kRest_ms = 150;
 
 const isObject = (value) => typeof value === 'object' && value !== null;
 
@@ -25,11 +30,16 @@ function adopt(target, source) {
 function shapeOf(block) {
   if (block.type === 'times') {
     const span = block.panels.map((panel) => [panel.label, panel.unit, panel.series.map((s) => [s.name, s.t[0], s.t.at(-1)])]);
-    return [block.title, span, block.view, (block.phases || []).map((phase) => phase.name)];
+    return [block.title, span, block.view, block.rows, (block.phases || []).map((phase) => phase.name)];
   }
   if (block.type === 'bars' || block.type === 'curves') return [block.label, block.x, block.y, block.series.map((s) => s.name)];
+  if (block.type === 'animation') return [block.machine, block.label, block.wheels.length];
   return [];
 }
+
+/// Whether an element is in sight, without a layout of the page.
+const inSight = new WeakSet();
+const watchSight = new IntersectionObserver((entries) => entries.forEach((entry) => (entry.isIntersecting ? inSight.add(entry.target) : inSight.delete(entry.target))));
 
 const shapeOfPage = (payload) => JSON.stringify([payload.title, payload.clock && [payload.clock.start_s, payload.clock.end_s],
   payload.sections.map((section) => [section.title, section.folded, section.blocks.map((block) => [block.type, shapeOf(block)])])]);
@@ -39,7 +49,10 @@ class ClockOfBlock {
   constructor(clock) {
     this.clock = clock;
     this.listeners = [];
-    clock.onChange((time_s) => this.listeners.forEach((listener) => listener(time_s)));
+    clock.onChange(() => this.tell());
+  }
+  tell() {
+    this.listeners.forEach((listener) => listener(this.clock.now_s));
   }
   get start_s() { return this.clock.start_s; }
   get end_s() { return this.clock.end_s; }
@@ -50,11 +63,6 @@ class ClockOfBlock {
     listener(this.clock.now_s);
   }
 }
-
-const isInSight = (element) => {
-  const box = element.getBoundingClientRect();
-  return box.height > 0 && box.bottom > 0 && box.top < innerHeight;
-};
 
 /// What one looks at first: figures, then the test over time, then all else.
 function sorted(sections) {
@@ -86,7 +94,10 @@ export class Results {
 
   #forget() {
     clearTimeout(this.later);
-    this.slots.forEach((slot) => forgetChartsIn(slot.element));
+    for (const slot of this.slots) {
+      forgetChartsIn(slot.element);
+      watchSight.unobserve(slot.element);
+    }
     this.slots = [];
   }
 
@@ -109,42 +120,60 @@ export class Results {
     this.element.replaceChildren(h('header', null, h('h1', null, page.title), page.subtitle && h('p', { class: 'subtitle' }, page.subtitle)),
       h('nav', { 'aria-label': 'Contents' }, page.sections.map((s) => h('a', { href: `#${slug(s.title)}` }, s.title))), ...elements);
     this.slots = blocks.flat();
-    this.slots.forEach((slot) => this.#watchNumbers(slot));
-    this.slots.filter((slot) => isInSight(slot.element)).forEach((slot) => chartsIn(slot.element).forEach((chart) => chart.draw()));
+    for (const slot of this.slots) {
+      this.#watchNumbers(slot);
+      watchSight.observe(slot.element);
+    }
   }
 
   #update(page) {
     clearTimeout(this.later);
     this.element.querySelector('.subtitle')?.replaceChildren(page.subtitle);
-    const next = page.sections.flatMap((section) => section.blocks.map((block) => ({ block, section })));
-    next.forEach(({ block, section }, i) => Object.assign(this.slots[i], { next: block, section }));
-    const refreshAll = (slots) => slots.filter((slot) => slot.next).forEach((slot) => this.#refresh(slot));
-    refreshAll(this.slots.filter((slot) => isInSight(slot.element)));
-    this.later = setTimeout(() => refreshAll(this.slots), 120);  // a slider that moves on is worth more
+    page.sections.flatMap((section) => section.blocks).forEach((block, i) => this.#take(this.slots[i], block));
+    this.slots.filter((slot) => inSight.has(slot.element)).forEach((slot) => this.#refresh(slot));
+    this.later = setTimeout(() => {
+      this.slots.forEach((slot) => this.#refresh(slot));
+      this.slots.filter((slot) => slot.isRough).forEach((slot) => this.#remake(slot));
+    }, kRest_ms);
+  }
+
+  /// New data, not drawn yet. All blocks have theirs before the first is drawn: an animation reads those of its charts.
+  #take(slot, block) {
+    slot.isDirty = true;
+    if (kInPlace.includes(block.type) || kInPlaceForNow.includes(block.type)) adopt(slot.block, block);
+    else slot.block = block;
   }
 
   #refresh(slot) {
-    const { next } = slot;
-    slot.next = null;
-    slot.context.section = slot.section;
-    if (kInPlace.includes(next.type)) {
-      adopt(slot.block, next);
+    if (!slot.isDirty) return;
+    slot.isDirty = false;
+    if (kInPlace.includes(slot.block.type)) {
       chartsIn(slot.element).forEach((chart) => chart.refresh());
       slot.isStale = true;
       if (slot.element.querySelector('details.numbers')?.open) this.#renewNumbers(slot);
-      return;
+    } else if (kInPlaceForNow.includes(slot.block.type)) {
+      slot.isRough = true;
+      slot.clock?.tell();
+    } else {
+      this.#remake(slot);
     }
-    slot.block = next;
+  }
+
+  #remake(slot) {
+    slot.isRough = false;
     if (slot.clock) slot.clock.listeners = [];
-    this.#replace(slot, kBlocks[next.type](next, slot.context));
+    this.#replace(slot, kBlocks[slot.block.type](slot.block, slot.context));
   }
 
   #replace(slot, element) {
     const open = [...slot.element.querySelectorAll('details')].map((one) => one.open);
     const drawn = chartsIn(slot.element).some((chart) => chart.instance);
     forgetChartsIn(slot.element);
+    watchSight.unobserve(slot.element);
     slot.element.replaceWith(element);
+    if (inSight.has(slot.element)) inSight.add(element);
     slot.element = element;
+    watchSight.observe(element);
     [...element.querySelectorAll('details')].forEach((one, i) => (one.open = Boolean(open[i])));
     if (drawn) chartsIn(element).forEach((chart) => chart.draw());
   }

@@ -6,6 +6,7 @@ import { bytesText, makeColumns, makeGuesses } from './columns.js';
 import { readChosen } from './drop.js';
 import { makeProblem } from './problem.js';
 import { Results } from './results.js';
+import { capitalized } from './slider.js';
 
 const kBetweenLooks_ms = 300;
 const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
@@ -128,7 +129,7 @@ export class Sets {
     this.progress = h('div');
     this.only = this.choices.effects.map(({ id, label }) => ({ id, box: h('input', { type: 'checkbox', id: `only-${id}` }), label }));
     const only = h('details', { class: 'group' }, h('summary', null, 'Compare only some effects'), h('p', { class: 'note' }, 'Without a choice all effects are compared, as they should be unless you know better.'),
-      h('div', { class: 'only' }, this.only.map(({ box, label }) => h('label', null, box, ' ', label))));
+      h('div', { class: 'only' }, this.only.map(({ box, label }) => h('label', null, box, ' ', capitalized(label)))));
     this.checked.replaceChildren(h('div', { class: `lead ${isGood ? (warnings.length ? 'doubt' : 'good') : 'bad'}` }, h('div', null, h('p', null, `Validated: ${what}`))),
       h('ul', { class: 'warnings' }, warnings.map((warning) => h('li', null, h('strong', null, 'warning: '), warning))), only, this.run, this.progress);
     this.checked.scrollIntoView({ block: 'nearest' });

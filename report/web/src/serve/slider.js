@@ -3,6 +3,12 @@ import { h } from '../dom.js';
 import { number } from '../format.js';
 import { makeProblem } from './problem.js';
 
+/// "Load accuracy" of "load accuracy".
+export const capitalized = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/// A unit as a person writes it.
+const unitText = (unit) => unit.replace('degC', '\u00b0C');
+
 /// A step that makes about so many positions: 1, 2 or 5 times a power of ten.
 function niceStep(span, positions) {
   const raw = span / positions;
@@ -16,7 +22,7 @@ const rounded = (value, step) => Number((Math.round(value / step) * step).toPrec
 /// Assumed: what one tries; the field beside it takes every number that is allowed.
 function spanAbout(value, { unit, lower, upper }) {
   const size = Math.abs(value) || 1;
-  const [from, to] = unit === '\u00b0C' || unit === 'degC' ? [Math.min(-10, value), Math.max(45, value)] : value === 0 ? [-1, 1] : [value - 0.6 * size, value + 0.6 * size];
+  const [from, to] = unit === 'degC' ? [Math.min(-10, value), Math.max(45, value)] : value === 0 ? [-1, 1] : [value - 0.6 * size, value + 0.6 * size];
   return [Math.max(from, lower ?? -Infinity), Math.min(to, upper ?? Infinity)];
 }
 
@@ -31,7 +37,7 @@ export class Slider {
     this.reset = h('button', { type: 'button', class: 'reset', title: 'Back to the default', 'aria-label': `${info.label}: back to the default`, disabled: true }, '\u21ba');
     this.message = h('div', { class: 'beside' });
     this.element = h('div', { class: 'control' },
-      h('div', { class: 'controlhead' }, h('label', { for: id, title: info.doc }, info.label), this.field, h('span', { class: 'unit' }, info.unit), this.reset),
+      h('div', { class: 'controlhead' }, h('label', { for: id, title: info.doc }, capitalized(info.label)), this.field, h('span', { class: 'unit' }, unitText(info.unit)), this.reset),
       this.range, this.message);
     this.range.addEventListener('input', () => this.#take(rounded(Number(this.range.value), this.step), onInput));
     this.field.addEventListener('input', () => this.field.value !== '' && Number.isFinite(this.field.valueAsNumber) && this.#take(this.field.valueAsNumber, onInput));
@@ -60,7 +66,7 @@ export class Slider {
     const text = String(Number(value.toPrecision(6)));
     if (document.activeElement !== this.field) this.field.value = text;
     this.range.value = value;
-    this.range.setAttribute('aria-valuetext', `${number(value)} ${this.info.unit}`);
+    this.range.setAttribute('aria-valuetext', `${number(value)} ${unitText(this.info.unit)}`);
     this.reset.disabled = this.value === null;
     this.element.classList.toggle('moved', this.value !== null);
   }
