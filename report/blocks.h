@@ -1,6 +1,8 @@
 #pragma once
 /// Blocks of a page, from what the program's own types hold.
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +52,19 @@ struct Axis {
 Block make_curves(const Axis& x, const Axis& y, Json series, const std::string& caption = "");
 /// Bars over categories.
 Block make_bars(const Axis& y, Json categories, Json series, const std::string& caption = "");
+/// A value at an end of a waterfall, or a signed change on the way.
+struct WaterfallBar {
+  std::string name;
+  double value = 0.0;
+  std::optional<std::array<double, 2>> limits = {};  // of a change: its lower and upper limit
+};
+
+/// A waterfall: from one value to another, change by change.
+/// Errors   std::logic_error where the changes do not lead from the first value to the last, to rounding
+/// Checked  tests/report/waterfall_test.cpp
+Block make_waterfall(const Axis& value, const WaterfallBar& start, const std::vector<WaterfallBar>& steps,
+                     const WaterfallBar& end, const std::string& caption = "");
+
 /// A document as it stands, folded away.
 Section make_document(const Json& document, const std::string& folded);
 /// Warnings, where there are some, and tables.

@@ -8,6 +8,7 @@ import { mapBlock, sharesBlock } from './blocks/map.js';
 import { linesBlock, tableBlock } from './blocks/table.js';
 import { definitionsBlock, leadBlock, preBlock, textBlock, warningsBlock } from './blocks/text.js';
 import { timesBlock } from './blocks/times.js';
+import { waterfallBlock } from './blocks/waterfall.js';
 import { chartCount, drawAll, showTips } from './chart.js';
 import { Clock } from './clock.js';
 import { h } from './dom.js';
@@ -19,6 +20,7 @@ export const kBlocks = {
   bars: barsBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
   map: mapBlock, pre: preBlock, animation: animationBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
   time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
+  waterfall: waterfallBlock,
 };
 
 export const slug = (title) => title.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
