@@ -1,6 +1,6 @@
 // Opens a page of rollrig in headless Chromium and checks it. One line a finding; exit status 1 where one is bad.
 // node check_page.mjs <page.html> [--charts N] [--animation] [--recording FILE.csv] [--shows TEXT] [--screenshots DIR]
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -116,6 +116,77 @@ async function checkReadings(file) {
     }
   }
   check(compared > 50 && wrong === '', `${compared} readings are those of the recording's rows: ${wrong}`);
+}
+
+/// Clicks with the mouse in the middle of an element.
+async function click(selector, index) {
+  const { x, y } = await chromium.evaluate(`(() => { const e = document.querySelectorAll('${selector}')[${index}]; e.scrollIntoView({ block: 'center' });
+    const b = e.getBoundingClientRect(); return { x: b.x + b.width / 2, y: b.y + b.height / 2 }; })()`);
+  for (const type of ['mousePressed', 'mouseReleased']) await chromium.send('Input.dispatchMouseEvent', { type, x, y, button: 'left', clickCount: 1 });
+}
+
+/// The file that a way of the menu of a chart gives: name and bytes.
+async function saveChart(index, way, folder) {
+  let ended;
+  const saved = new Promise((done) => (ended = done));
+  let begun;
+  const stop = chromium.on((method, params) => {
+    if (method === 'Browser.downloadWillBegin') begun = params;
+    if (method === 'Browser.downloadProgress' && params.guid === begun?.guid && params.state !== 'inProgress') ended();
+  });
+  await click('.save summary', index);
+  await click(`.save[open] button`, way);
+  const late = setTimeout(ended, kPatience_ms);
+  await saved;
+  clearTimeout(late);
+  stop();
+  const name = begun?.suggestedFilename ?? 'nothing';
+  const file = join(folder, name);
+  return { name, bytes: existsSync(file) ? readFileSync(file) : Buffer.alloc(0) };
+}
+
+/// Numbers of a chart's block in the page's data, in the order of its kind.
+const kNumbersOf = {
+  bars: (b) => b.series.flatMap((s) => [s.values, s.low, s.high]),
+  curves: (b) => b.series.flatMap((s) => [s.x, s.y, s.low, s.high]),
+  energy: (b) => b.ledgers.map((l) => l.terms.map((t) => t.in_J)),
+  times: (b) => [[...new Set(b.panels.flatMap((p) => p.series.flatMap((s) => s.t)))], ...b.panels.flatMap((p) => p.series.map((s) => s.y))],
+  waterfall: (b) => ['value', 'low', 'high'].map((key) => [b.start, ...b.steps, b.end].map((bar) => bar[key])),
+};
+const kTextColumns = /^(balance|category|kind|series|step|term|.*_note)$/;
+const sorted = (numbers) => numbers.flat().filter((n) => typeof n === 'number').sort((a, b) => a - b).join();
+
+/// The cells of a line of CSV.
+const splitCsv = (line) => [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map((m) => (m[1] !== undefined ? m[1].replaceAll('""', '"') : m[2]));
+
+/// The menu of every chart saves the numbers of its block, all digits of them, and its picture.
+async function checkSaving() {
+  const folder = mkdtempSync(join(tmpdir(), 'rollrig-saved-'));
+  try {
+    await chromium.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder, eventsEnabled: true });
+    const payload = JSON.parse(await chromium.evaluate(`document.getElementById('payload').textContent`));
+    const blocks = payload.sections.flatMap((section) => section.blocks).filter((block) => kNumbersOf[block.type]);
+    const count = await chromium.evaluate(`document.querySelectorAll('.save').length`);
+    check(count === blocks.length && count === await chromium.evaluate(`document.querySelectorAll('.chart').length`), `${count} charts have a menu that saves them`);
+    await chromium.evaluate(`(document.querySelectorAll('details.fold').forEach((fold) => (fold.open = true)), rollrig.drawAll(), 0)`);
+    for (let i = 0; i < count; ++i) {
+      const { name, bytes } = await saveChart(i, 0, folder);
+      const [head, ...rows] = bytes.toString().trimEnd().split('\n').map(splitCsv);
+      const columns = head.map((_, c) => c).filter((c) => !kTextColumns.test(head[c]));
+      const numbers = columns.map((c) => rows.map((row) => row[c]).filter((cell) => cell !== '').map(Number));
+      const isWhole = rows.length > 0 && rows.every((row) => row.length === head.length) && new Set(head).size === head.length;
+      check(/^[^\s/]+\.csv$/.test(name) && isWhole && sorted(numbers) === sorted(kNumbersOf[blocks[i].type](blocks[i])),
+        `chart ${i + 1}: ${name} has the ${numbers.flat().length} numbers of the page's data in ${head.join(', ').slice(0, 160)}`);
+    }
+    const svg = await saveChart(0, 1, folder);
+    check(/^<svg[^>]+xmlns/.test(svg.bytes.toString()) && svg.name.endsWith('.svg') && svg.bytes.length > 2000, `${svg.name} is a picture of ${svg.bytes.length} bytes`);
+    const png = await saveChart(0, 2, folder);
+    const width = await chromium.evaluate(`document.querySelector('.chart').clientWidth`);
+    const isWide = png.bytes.length > 100 && png.bytes.readUInt32BE(16) === 2 * width;
+    check(png.name.endsWith('.png') && isWide && (await measureInk(png.bytes.toString('base64'))).ink > 0.005, `${png.name} is the picture at twice its width`);
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
 }
 
 async function checkWords() {
@@ -243,6 +314,7 @@ async function checkPage() {
   const shown = option('--shows');
   if (shown) check(await chromium.evaluate(`document.querySelector('main').textContent.includes(${JSON.stringify(shown)})`), `the page shows ${shown}`);
   await checkAccess();
+  await checkSaving();
   if (args.includes('--animation')) await checkAnimation();
   if (option('--recording')) await checkReadings(option('--recording'));
   await checkNarrow();

@@ -13,6 +13,7 @@ import {
 } from 'echarts/components';
 import { SVGRenderer } from 'echarts/renderers';
 import { h } from './dom.js';
+import { saveMenu } from './save.js';
 import { color, onThemeChange } from './theme.js';
 
 echarts.use([
@@ -58,8 +59,11 @@ export function axisStyle() {
 export const axisTitle = (text, hasLegend) => ({ text, left: 0, top: hasLegend ? 26 : 2, padding: 0, textStyle: { fontSize: 12, fontWeight: 400, color: color('soft') } });
 
 export class Chart {
-  /// `makeOption(width)` is asked anew for each theme; `height` in px, or of the width.
-  constructor({ height, makeOption, label, afterDraw }) {
+  /// `makeOption(width)` is asked anew for each theme; `height` in px, or of the width. `title` and `data()`, the columns
+  /// of its CSV, are for saving.
+  constructor({ height, makeOption, label, title, data, afterDraw }) {
+    this.title = title;
+    this.data = data;
     this.makeOption = makeOption;
     this.height = typeof height === 'function' ? height : () => height;
     this.afterDraw = afterDraw;
@@ -152,9 +156,11 @@ export function showTips() {
   }));
 }
 
-/// A figure: chart, caption, and the numbers as a table that opens.
+/// What stands below a chart: the numbers as a table that opens, and the menu that saves it.
+export const chartFoot = (chart, table) => h('div', { class: 'chartfoot' },
+  table && h('details', { class: 'numbers' }, h('summary', null, 'Numbers of this chart as a table'), table), saveMenu(chart));
+
+/// A figure: chart, caption, and what stands below it.
 export function figure({ chart, caption, table, before }) {
-  return h('figure', null, before, chart.element,
-    caption && h('figcaption', null, caption),
-    table && h('details', { class: 'numbers' }, h('summary', null, 'Numbers of this chart as a table'), table));
+  return h('figure', null, before, chart.element, caption && h('figcaption', null, caption), chartFoot(chart, table));
 }

@@ -1,6 +1,7 @@
 // Bars side by side: {label, unit, categories: [...], series: [{name, values, low, high}], caption}
 import { axisStyle, axisTitle, baseOption, Chart, figure } from '../chart.js';
 import { number } from '../format.js';
+import { column } from '../save.js';
 import { color } from '../theme.js';
 import { makeTable } from './table.js';
 
@@ -63,11 +64,19 @@ function makeNumbers(block) {
   return makeTable({ caption: block.label, columns, rows });
 }
 
+/// A row for each category.
+const makeData = (block) => [column('category', '', block.categories), ...block.series.flatMap((s) => {
+  const quantity = block.series.length > 1 ? `${block.label} ${s.name}` : block.label;
+  return [column(quantity, block.unit, s.values), ...(s.low ? [column(`${quantity} low`, block.unit, s.low), column(`${quantity} high`, block.unit, s.high)] : []),
+    ...(s.labels ? [column(`${quantity} note`, '', s.labels)] : [])];
+})];
+
 export function barsBlock(block) {
   const names = block.series.map((s) => s.name).join(' and ');
   const chart = new Chart({
     height: (width) => (width < 600 ? 360 : 320),
     label: `Bar chart: ${block.label}, ${names}, for ${block.categories.join(', ')}. The table below has the numbers.`,
+    title: block.label, data: () => makeData(block),
     makeOption: (width) => makeOption(block, width),
   });
   return figure({ chart, caption: block.caption, table: makeNumbers(block) });

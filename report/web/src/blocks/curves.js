@@ -4,6 +4,7 @@
 import { axisStyle, axisTitle, baseOption, Chart, figure, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { number } from '../format.js';
+import { column } from '../save.js';
 import { color, seriesStyle } from '../theme.js';
 import { makeTable } from './table.js';
 
@@ -78,10 +79,19 @@ function makeNumbers(block) {
   return makeTable({ caption: `${block.y.label} over ${block.x.label}`, columns, rows });
 }
 
+/// A row for each point; the series of a point stands in the first column.
+function makeData(block) {
+  const all = (key) => block.series.flatMap((s) => s.x.map((_, i) => (s[key] ? s[key][i] : null)));
+  const isRanged = block.series.some((s) => s.low);
+  return [column('series', '', block.series.flatMap((s) => s.x.map(() => s.name))), column(block.x.label, block.x.unit, all('x')), column(block.y.label, block.y.unit, all('y')),
+    ...(isRanged ? [column(`${block.y.label} low`, block.y.unit, all('low')), column(`${block.y.label} high`, block.y.unit, all('high'))] : [])];
+}
+
 export function curvesBlock(block) {
   const chart = new Chart({
     height: (width) => block.height || (width < 600 ? 320 : 340),
     label: `Chart of ${block.y.label} over ${block.x.label}: ${block.series.map((s) => s.name).join(', ')}. The table below has the numbers.`,
+    title: `${block.y.label} over ${block.x.label}`, data: () => makeData(block),
     makeOption: () => makeOption(block),
   });
   return figure({ chart, caption: block.caption, table: makeNumbers(block) });

@@ -1,9 +1,10 @@
 // Where the energy goes: {ledgers: [{name, terms: [{name, in_J}]}], links: [[from, to]], closures: [...]}
 // Terms above zero bring energy in, terms below carry it off or store it. Energy that leaves the first ledger as the
 // second's heat source flows on.
-import { baseOption, Chart, tipLine } from '../chart.js';
+import { baseOption, Chart, chartFoot, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { number, plain } from '../format.js';
+import { column } from '../save.js';
 import { color } from '../theme.js';
 import { makeTable } from './table.js';
 
@@ -76,12 +77,18 @@ function makeNumbers(block, unit) {
     { label: 'energy', unit: unit.symbol, align: 'right' }, { label: 'share of inflow', align: 'right' }], rows });
 }
 
+/// A row for each term; what brings energy in is positive.
+function makeData({ ledgers }) {
+  const terms = ledgers.flatMap((ledger) => ledger.terms.map((term) => ({ ...term, balance: ledger.name })));
+  return [column('balance', '', terms.map((t) => t.balance)), column('term', '', terms.map((t) => t.name)), column('energy in', 'J', terms.map((t) => t.in_J))];
+}
+
 export function energyBlock(block) {
   const largest = Math.max(...block.ledgers.flatMap((l) => l.terms.map((t) => Math.abs(t.in_J))));
   const unit = unitFor(largest);
   const summary = block.ledgers.map((l) => l.terms.filter((t) => Math.abs(t.in_J) >= kShown * inflow(l))
     .map((t) => `${plain(t.name)} ${number(t.in_J / unit.J)} ${unit.symbol}`).join(', ')).join('; ');
-  const chart = new Chart({ height: (width) => (width < 600 ? 420 : 340), label: `Flow of energy: ${summary}`, makeOption: (width) => makeOption(block, unit, width) });
+  const chart = new Chart({ height: (width) => (width < 600 ? 420 : 340), label: `Flow of energy: ${summary}`, title: 'Flow of energy', data: () => makeData(block), makeOption: (width) => makeOption(block, unit, width) });
   return h('figure', null, chart.element, h('figcaption', null, block.caption),
-    h('details', { class: 'numbers' }, h('summary', null, 'Numbers of this chart as a table'), makeNumbers(block, unit)));
+    chartFoot(chart, makeNumbers(block, unit)));
 }

@@ -3,10 +3,11 @@
 // {title, view: [from_s, to_s], phases: [{name, start_s, end_s}],
 //  rows: [[start_s, step_s, number], ...], panels: [{label, unit, series: [{name, t, y, points, recorded, phases}]}]}
 // Of a recording the values in numbers are those of its rows (rows, recorded, phases), not of the lines.
-import { axisStyle, baseOption, Chart, graphic, tipLine } from '../chart.js';
+import { axisStyle, baseOption, Chart, chartFoot, graphic, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { recordedAt, rowAt, rowTimes, valueAt } from '../clock.js';
 import { clockTime, number, timeUnit } from '../format.js';
+import { column } from '../save.js';
 import { color, isOnPaper, seriesStyle } from '../theme.js';
 import { makePhaseTable } from './phase_table.js';
 
@@ -199,6 +200,17 @@ function tieToClock(chart, cursor, clock, unit, panels) {
   };
 }
 
+/// A row for each time at which a series has a point, and a column for each series. The series of a recording have the
+/// names of its channels; others have the name of their panel before their own where that does not say it.
+function makeData(block) {
+  const all = block.panels.flatMap((panel) => panel.series.map((series) => ({ panel, series, values: new Map(series.t.map((t, i) => [t, series.y[i]])) })));
+  const isOwnName = Boolean(block.rows) && new Set(all.map(({ series }) => series.name)).size === all.length;
+  const name = (panel, series) => (isOwnName || series.name.toLowerCase().includes(panel.label.toLowerCase()) ? series.name : `${panel.label} ${series.name}`);
+  const times_s = [...new Set(all.flatMap(({ series }) => series.t))].sort((a, b) => a - b);
+  return [column('time', 's', times_s), ...all.map(({ panel, series, values }) =>
+    column(name(panel, series), panel.unit, times_s.map((t) => values.get(t) ?? null)))];
+}
+
 export function timesBlock(block, { clock }) {
   const span = findSpan(block);
   const unit = timeUnit((block.view || span)[1] - (block.view || span)[0]);
@@ -206,6 +218,7 @@ export function timesBlock(block, { clock }) {
   const chart = new Chart({
     height: (width) => panelsBottom(block.panels.length, width) + kFoot,
     label: `Line charts over time from ${clockTime(span[0])} to ${clockTime(span[1])}: ${names}. The table below has mean and extremes of each phase.`,
+    title: block.title || 'Over time', data: () => makeData(block),
     makeOption: (width) => makeOption(block, span, unit, width),
   });
   const holder = h('div', { class: 'times' }, chart.element);
@@ -221,5 +234,5 @@ export function timesBlock(block, { clock }) {
       h('option', { value: JSON.stringify(span) }, 'the whole time'),
       (block.phases || []).map((p) => h('option', { value: JSON.stringify([p.start_s, p.end_s]) }, p.name)))));
   return h('figure', null, h('div', { class: 'charthead' }, h('h3', null, block.title || ''), choice), holder, block.caption && h('figcaption', null, block.caption),
-    h('details', { class: 'numbers' }, h('summary', null, 'Numbers of this chart as a table'), makePhaseTable(block, span)));
+    chartFoot(chart, makePhaseTable(block, span)));
 }

@@ -3,6 +3,7 @@
 import { axisStyle, axisTitle, baseOption, Chart, figure, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { decimalsFor, fixed, number } from '../format.js';
+import { column } from '../save.js';
 import { color } from '../theme.js';
 import { makeTable } from './table.js';
 
@@ -125,11 +126,20 @@ function makeNumbers(block, rows) {
   return makeTable({ caption: block.label || `${block.start.name} to ${block.end.name}`, columns, rows: cells });
 }
 
+/// A row for each bar: a value at the ends, else a change.
+function makeData({ unit, start, steps, end }) {
+  const bars = [start, ...steps, end];
+  const values = (key) => bars.map((bar) => bar[key]);
+  const limits = steps.some((step) => isNumber(step.low)) ? [column('low', unit, values('low')), column('high', unit, values('high'))] : [];
+  return [column('step', '', values('name')), column('kind', '', bars.map((_, i) => (i === 0 || i + 1 === bars.length ? 'value' : 'change'))), column('value', unit, values('value')), ...limits];
+}
+
 export function waterfallBlock(block) {
   const rows = makeRows(block);
   const chart = new Chart({
     height: (width) => rows.length * kRow_px[width < kNarrow_px ? 'narrow' : 'wide'] + kTitle_px + 40,
     label: `Waterfall: ${rows.map((row) => `${row.name} ${row.text}`).join(', ')} ${block.unit}. The table below has the numbers.`,
+    title: block.label || `${block.start.name} to ${block.end.name}`, data: () => makeData(block),
     makeOption: (width) => makeOption(block, rows, width),
   });
   return figure({ chart, caption: block.caption, table: makeNumbers(block, rows) });

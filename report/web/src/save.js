@@ -1,0 +1,95 @@
+// Saves a chart: its data as CSV, its picture as SVG or PNG. Nothing leaves the page but files that the reader asks for.
+import { h, svg } from './dom.js';
+import { color } from './theme.js';
+
+const kPixelRatio = 2; // of a PNG: sharp on a dense screen and on paper
+
+/// "drum_torque" of "Drum torque": what may stand in a column name and in a file name.
+const slug = (text) => String(text).toLowerCase().replace(/[^\p{L}\p{N}]+/gu, '_').replace(/^_+|_+$/g, '');
+
+/// Units as the program's own files have them: "degC" of "°C", "km_h" of "km/h", "N_per_kN" of "N/kN".
+function unitSuffix(unit) {
+  return String(unit || '').replace(/\u00b0C/g, 'degC').replace(/%/g, 'percent').replace(/\u00b2/g, '2').replace(/\u00b3/g, '3').replace(/\bN m\b/g, 'Nm')
+    .replace(/\b(km\/h|m\/s|rad\/s)/g, (quotient) => quotient.replace('/', '_')).replace(/\//g, '_per_').replace(/[^\p{L}\p{N}]+/gu, '_').replace(/^1_per_/, 'per_').replace(/^_+|_+$/g, '');
+}
+
+/// "speed_km_h": the quantity and its unit.
+export const columnName = (quantity, unit) => [slug(quantity) || 'value', unitSuffix(unit)].filter(Boolean).join('_');
+
+/// A column of a CSV file: {name, values}.
+export const column = (quantity, unit, values) => ({ name: columnName(quantity, unit), values });
+
+function showCell(value) {
+  if (value === null || value === undefined) return '';
+  const text = String(value); // of a number all digits that it has
+  return /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
+function makeCsv(columns) {
+  const names = columns.map(({ name }, i) => {
+    const before = columns.slice(0, i).filter((one) => one.name === name).length;
+    return before > 0 ? `${name}_${before + 1}` : name;
+  });
+  const count = Math.max(0, ...columns.map(({ values }) => values.length));
+  const rows = Array.from({ length: count }, (_, i) => columns.map(({ values }) => showCell(values[i])).join(','));
+  return [names.map(showCell).join(','), ...rows, ''].join('\n');
+}
+
+/// The chart as it is drawn now, on the color of the page.
+function makeSvg(chart) {
+  const root = chart.element.querySelector('svg').cloneNode(true);
+  root.removeAttribute('style');
+  root.prepend(svg('title', null, chart.title), svg('rect', { width: '100%', height: '100%', fill: color('paper') }));
+  return { text: new XMLSerializer().serializeToString(root), width: chart.instance.getWidth(), height: chart.instance.getHeight() };
+}
+
+async function makePng({ text, width, height }) {
+  const url = URL.createObjectURL(new Blob([text], { type: 'image/svg+xml' }));
+  try {
+    const image = new Image(width, height);
+    image.src = url;
+    await image.decode();
+    const canvas = document.createElement('canvas');
+    canvas.width = kPixelRatio * width;
+    canvas.height = kPixelRatio * height;
+    canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
+    return await new Promise((done) => canvas.toBlob(done, 'image/png'));
+  } finally {
+    URL.revokeObjectURL(url);
+  }
+}
+
+function download(blob, name) {
+  const url = URL.createObjectURL(blob);
+  const link = h('a', { href: url, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(url), 60000); // the browser may still read it
+}
+
+const kWays = [
+  { label: 'Data as CSV', ending: 'csv', make: async (chart) => new Blob([makeCsv(chart.data())], { type: 'text/csv' }) },
+  { label: 'Picture as SVG', ending: 'svg', make: async (chart) => new Blob([makeSvg(chart).text], { type: 'image/svg+xml' }) },
+  { label: 'Picture as PNG', ending: 'png', make: async (chart) => makePng(makeSvg(chart)) },
+];
+
+document.addEventListener('pointerdown', (event) => document.querySelectorAll('details.save[open]').forEach((menu) => menu.contains(event.target) || (menu.open = false)));
+
+/// The menu of a chart. It closes when it has done its work, by Escape, and when something else is chosen.
+export function saveMenu(chart) {
+  const buttons = kWays.map(({ label, ending, make }) => h('button', { type: 'button', onclick: async () => {
+    menu.open = false;
+    menu.firstChild.focus();
+    chart.draw(); // where it has not been in sight
+    download(await make(chart), `${slug(chart.title) || 'chart'}.${ending}`);
+  } }, label));
+  const menu = h('details', { class: 'save' }, h('summary', { 'aria-label': `Save: ${chart.title}` }, 'Save'), h('div', null, buttons));
+  menu.addEventListener('keydown', (event) => {
+    if (event.key !== 'Escape' || !menu.open) return;
+    menu.open = false;
+    menu.firstChild.focus();
+  });
+  menu.addEventListener('focusout', (event) => event.relatedTarget && !menu.contains(event.relatedTarget) && (menu.open = false));
+  return menu;
+}
