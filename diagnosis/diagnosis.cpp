@@ -10,6 +10,7 @@
 #include "diagnosis/comparison/tire_beliefs.h"
 #include "diagnosis/findings/balance.h"
 #include "diagnosis/findings/gap.h"
+#include "diagnosis/findings/gap_steps.h"
 #include "diagnosis/findings/likeness.h"
 #include "diagnosis/findings/locations.h"
 #include "diagnosis/findings/materiality.h"
@@ -70,6 +71,7 @@ void forbid_causes(Diagnosis& diagnosis) {
 void judge_cause(const Study& study, const Comparison& comparison, Diagnosis& diagnosis) {
   const Candidate* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(comparison, diagnosis.causes);
   diagnosis.gap = find_gap(study, lead);
+  diagnosis.gap.steps = find_gap_steps(study, comparison, lead);
   if (diagnosis.verdict == Verdict::kNoGap) return;
   if (lead != nullptr) diagnosis.fitted.with_cause = find_fitted(study, lead->fit);
   weigh_objections(diagnosis.gap, diagnosis.causes, diagnosis.probability);

@@ -13,7 +13,8 @@
 namespace rollrig::diagnosis {
 
 using rollrig::BaseNumber, rollrig::Cause, rollrig::CauseChange, rollrig::DiagnosisOptions, rollrig::FleetMember,
-    rollrig::Gap, rollrig::GapView, rollrig::JudgedBy, rollrig::Likeness, rollrig::Shrinkage, rollrig::UnjudgedRun;
+    rollrig::Gap, rollrig::GapStep, rollrig::GapView, rollrig::JudgedBy, rollrig::Likeness, rollrig::Shrinkage,
+    rollrig::UnjudgedRun;
 using rollrig::Location, rollrig::NextTest, rollrig::ParameterEstimate, rollrig::Partner, rollrig::RangeLimit,
     rollrig::SdSource, rollrig::TestBudget, rollrig::Verdict;
 

@@ -17,6 +17,9 @@ Section make_verdict(const Findings& findings);
 Section make_causes(const Findings& findings);
 Section make_base_numbers(const Findings& findings);
 Section make_gap(const Findings& findings);
+/// What each step from the files' numbers to the first cause takes: of the force's gap in N, and over all channels in
+/// noise floors. Empty where the steps are not known.
+std::vector<Block> make_gap_waterfalls(const Gap& gap);
 Block make_balance(const Findings& findings);
 Section make_next(const Findings& findings);
 /// Equation, source, priors of what is named and of what cannot be told from it.

@@ -267,6 +267,7 @@ Section make_gap(const Findings& findings) {
       {{{"name", "before"}, {"values", {rounded(gap.as_calibrated.before), rounded(gap.recalibrated.before)}}},
        {{"name", "with the cause"}, {"values", {rounded(gap.as_calibrated.after), rounded(gap.recalibrated.after)}}}},
       "One noise floor is the standard deviation of a mean over ten seconds."));
+  for (Block& block : make_gap_waterfalls(gap)) section.blocks.push_back(std::move(block));
   const auto percent = [](const std::optional<double>& value) {
     return value.has_value() ? fmt::format("{:.0f} %", *value) : std::string("not above the noise");
   };

@@ -7,113 +7,13 @@
 #include <set>
 
 #include "diagnosis/comparison/held_out.h"
-#include "diagnosis/comparison/report_unit.h"
-#include "diagnosis/findings/energy_scale.h"
+#include "diagnosis/findings/gap_measure.h"
 #include "diagnosis/findings/lone_conditions.h"
 #include "sim/core/parallel.h"
 #include "sim/core/random.h"
 
 namespace rollrig::diagnosis {
 namespace {
-
-/// The offset that fits the differences of a series best, with the prior of its sensor.
-struct OffsetFit {
-  double offset = 0.0;           // SI
-  double offset_variance = 0.0;  // of the estimate
-};
-
-OffsetFit fit_offset(const Series& series, const Eigen::VectorXd& difference) {
-  std::vector<double> whitened(series.size());
-  std::vector<double> ones(series.size(), 1.0);
-  for (std::size_t k = 0; k < series.size(); ++k) whitened[k] = difference[to_index(series.first_residual + k)];
-  series.whitener.apply(whitened.data(), 1);
-  series.whitener.apply(ones.data(), 1);
-  double along = 0.0;
-  double square = 0.0;
-  for (std::size_t k = 0; k < series.size(); ++k) {
-    along += ones[k] * whitened[k];
-    square += ones[k] * ones[k];
-  }
-  const double prior = series.offset_sd > 0.0 ? 1.0 / (series.offset_sd * series.offset_sd) : 1e300;
-  const double offset = along / (square + prior);
-  return {offset, 1.0 / (square + prior)};
-}
-
-/// Squares of the differences minus those of the noise, summed over blocks. A resample draws those of stretches.
-struct StretchSquares {
-  double above = 0.0;   // the noise
-  double blocks = 0.0;  // number of blocks
-
-  void add(const StretchSquares& other) {
-    above += other.above;
-    blocks += other.blocks;
-  }
-  double gap() const { return blocks > 0.0 ? std::sqrt(std::max(0.0, above / blocks)) : 0.0; }
-};
-
-/// Sums over the differences of some runs.
-struct Measure {
-  std::map<std::pair<std::size_t, std::size_t>, StretchSquares> stretches;  // by run and phase, in noise floors
-  std::vector<StretchSquares> channels;                                     // squares in SI
-  std::map<std::size_t, EnergyShare> energies;                              // by run
-};
-
-/// The set, and the energy of its blocks, by which differences are measured.
-struct Scale {
-  const PreparedSet& set;
-  EnergyScale energy;
-};
-
-/// Adds the differences of one run in all channels, after their offsets have been estimated again and subtracted: of
-/// all phases, or of those in `counted`.
-void add_run(const Scale& scale, std::size_t run, const Eigen::VectorXd& difference, Measure& measure,
-             const std::set<std::size_t>* counted = nullptr) {
-  measure.channels.resize(scale.set.channels().size());
-  for (const Series& series : scale.set.series()) {
-    if (series.run != run) continue;
-    const OffsetFit fit = fit_offset(series, difference);
-    for (std::size_t k = 0; k < series.size(); ++k) {
-      if (counted != nullptr && counted->count(series.phase[k]) == 0) continue;
-      const std::size_t at = series.first_residual + k;
-      const double d = difference[to_index(at)] - fit.offset;
-      const double sd = series.whitener.standard_deviation(k);
-      const double above = d * d - std::max(0.0, sd * sd - fit.offset_variance);
-      measure.stretches[{run, series.phase[k]}].add({above / (series.floor * series.floor), 1.0});
-      measure.channels[series.channel].add({above, 1.0});
-      measure.energies[run].error += scale.energy.energy_per_SI(at) * d;
-      measure.energies[run].energy += scale.energy.energy(at);
-    }
-  }
-}
-
-std::optional<double> find_energy_percent(const Measure& measure) {
-  std::vector<EnergyShare> runs;
-  for (const auto& [run, share] : measure.energies) runs.push_back(share);
-  return calc_rms_percent(runs);
-}
-
-double gap_of(const Measure& measure) {
-  StretchSquares sum;
-  for (const auto& [where, stretch] : measure.stretches) sum.add(stretch);
-  return sum.gap();
-}
-
-/// The candidate with its base parameters at the files' values: only its own parameters and offsets are fitted.
-Measure measure_as_calibrated(const Study& study, const Scale& scale, const Candidate& candidate) {
-  const PreparedSet& set = study.set;
-  const Model model(set, {}, candidate.fit.hypothesis);
-  constexpr int kMost = 6;
-  RefitStart start{candidate.amplitudes, Eigen::VectorXd(to_index(model.unknown_count())), 1, kMost};
-  const Eigen::Index own = to_index(model.own_count());
-  const Eigen::Index offsets = to_index(set.offset_count());
-  start.unknowns << candidate.fit.unknowns.head(own), candidate.fit.unknowns.tail(offsets);
-  const Eigen::VectorXd simulated = refit(model, study.discrepancy, start).simulated;
-  Measure measure;
-  if (simulated.size() == 0) return measure;
-  const Eigen::VectorXd difference = set.measured() - simulated;
-  for (std::size_t run = 0; run < set.runs().size(); ++run) add_run(scale, run, difference, measure);
-  return measure;
-}
 
 double shrink_percent(double before, double after) { return 100.0 * (1.0 - after / before); }
 
@@ -315,12 +215,7 @@ BeforeAfter measure_stretches_left_out(const Study& study, const Scale& scale, c
 }
 
 BeforeAfter measure_fitted(const Study& study, const Scale& scale, const Candidate& cause) {
-  BeforeAfter fitted;
-  for (std::size_t run = 0; run < study.set.runs().size(); ++run) {
-    add_run(scale, run, study.set.measured() - study.null.fit.simulated, fitted.before);
-    add_run(scale, run, study.set.measured() - cause.fit.simulated, fitted.after);
-  }
-  return fitted;
+  return {measure_runs(scale, study.null.fit.simulated), measure_runs(scale, cause.fit.simulated)};
 }
 
 /// Sum over all that can be left out, one at a time: by how much the cause makes it likelier, in nats. These are the
@@ -361,15 +256,10 @@ const BeforeAfter* choose_judge(const Gap& gap, bool is_single, const RunsLeftOu
 }
 
 std::vector<ChannelGap> list_channels(const PreparedSet& set, const Measure& before, const Measure& after) {
+  const std::vector<ChannelRms> was = list_channel_rms(set, before);
+  const std::vector<ChannelRms> is = list_channel_rms(set, after);
   std::vector<ChannelGap> channels;
-  for (std::size_t c = 0; c < set.channels().size(); ++c) {
-    const ReportUnit unit = find_report_unit(set, set.channels()[c]);
-    const auto in_unit = [&](const Measure& measure) {
-      if (measure.channels.empty()) return 0.0;  // no run could be simulated
-      return unit.per_SI * measure.channels[c].gap();
-    };
-    channels.push_back({set.channels()[c].header(), unit.symbol, in_unit(before), in_unit(after)});
-  }
+  for (std::size_t c = 0; c < was.size(); ++c) channels.push_back({was[c].channel, was[c].unit, was[c].rms, is[c].rms});
   return channels;
 }
 

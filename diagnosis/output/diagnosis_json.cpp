@@ -89,6 +89,15 @@ Json make_judge(JudgedBy by) {
   return by == JudgedBy::kRuns ? "runs_left_out" : "stretches_left_out";
 }
 
+Json make_gap_step(const GapStep& step) {
+  return {{"name", step.name},
+          {"floors", number(step.floors)},
+          {"energy_percent", number(step.energy_percent)},
+          {"channels", make_list(step.channels, [](const rollrig::ChannelRest& at) -> Json {
+             return {{"channel", at.channel}, {"unit", at.unit}, {"rms", number(at.rms)}};
+           })}};
+}
+
 Json make_gap(const Gap& gap) {
   return {
       {"as_calibrated", make_view(gap.as_calibrated)},
@@ -109,6 +118,7 @@ Json make_gap(const Gap& gap) {
                                  return {{"run", at.run}, {"alone_in", at.alone_in}};
                                })},
       {"unit", "noise floors"},
+      {"steps", make_list(gap.steps, make_gap_step)},
       {"channels", make_list(gap.channels, [](const ChannelGap& at) -> Json {
          return {
              {"channel", at.channel}, {"unit", at.unit}, {"before", number(at.before)}, {"after", number(at.after)}};

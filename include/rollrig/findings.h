@@ -61,6 +61,21 @@ struct ChannelGap {
   double after = 0.0;
 };
 
+/// What is left of the gap in one channel, in its unit (a torque as force at the drum's surface).
+struct ChannelRest {
+  std::string channel;
+  std::string unit;
+  double rms = 0.0;  // without noise
+};
+
+/// What is left of the gap after a step from the files' numbers to the first cause.
+struct GapStep {
+  std::string name;                      // "as calibrated", "recalibrated", then an effect that is added
+  double floors = 0.0;                   // rms over all channels without noise, in noise floors
+  std::optional<double> energy_percent;  // by how much the energy of a run is off: rms over runs
+  std::vector<ChannelRest> channels;
+};
+
 /// What the first cause takes from the recalibrated gap, in one way of judging it.
 struct Shrinkage {
   GapView gap;                    // noise floors
@@ -100,6 +115,7 @@ struct Gap {
   std::vector<std::string> judged_on;           // of held_out, those on which the cause is judged
   bool worse_where_certain = false;             // the cause enlarges the gap of what is judged
   std::vector<ChannelGap> channels;
+  std::vector<GapStep> steps;  // on the fitted data, each effect added to those before it; empty where unknown
 };
 
 /// A stretch of one channel in which simulation and measurement differ.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "report/blocks.h"
+#include "report/diagnosis_page.h"
 
 using namespace rollrig;
 
@@ -23,4 +24,27 @@ TEST_CASE("a waterfall whose steps lead elsewhere is refused", "[fast]") {
   CHECK_THROWS_AS(report::make_waterfall({}, {"a", 1.0}, steps, {"b", 1.6}), std::logic_error);
   CHECK_THROWS_AS(report::make_waterfall({}, {"a", 1.0}, steps, {"b", std::nan("")}), std::logic_error);
   CHECK_THROWS_AS(report::make_waterfall({}, {"a", std::nan("")}, steps, {"b", 1.5}), std::logic_error);
+}
+
+TEST_CASE("the gap's waterfalls show what each step takes, in the force's unit and in noise floors", "[fast]") {
+  Gap gap;
+  CHECK(report::make_gap_waterfalls(gap).empty());  // of an answer without steps
+  const auto add = [&gap](const char* name, double floors, double force_N) {
+    gap.steps.push_back(
+        {name, floors, std::nullopt, {{"liner_temperature_degC", "degC", 0.3}, {"drum_torque_Nm", "N", force_N}}});
+  };
+  add("as calibrated", 6.0, 2.0);
+  add("recalibrated", 3.5, 1.5);
+  add("bearing_warmup", 1.0, 0.5);
+  add("load_exponent", 0.25, 0.125);
+  const std::vector<report::Block> blocks = report::make_gap_waterfalls(gap);
+  REQUIRE(blocks.size() == 2);
+  CHECK(blocks[0]["unit"] == "N");
+  CHECK(blocks[0]["start"]["value"] == 2.0);
+  CHECK(blocks[0]["steps"][1] == Json({{"name", "bearing_warmup"}, {"value", -1.0}}));
+  CHECK(blocks[0]["end"]["value"] == 0.125);
+  CHECK(blocks[1]["unit"] == "noise floors");
+  CHECK(blocks[1]["steps"].size() == 3);
+  CHECK(blocks[1]["steps"][0]["value"] == -2.5);
+  CHECK_THAT(blocks[0]["caption"].get<std::string>(), Catch::Contains("the order matters"));
 }

@@ -40,8 +40,8 @@ function makeRows(block) {
 /// The axis begins at zero, unless the steps would be too small to see.
 function findRange(rows) {
   const ends = rows.flatMap((row) => [row.to, ...(row.limits || [])]);
-  const [low, high] = [Math.min(...ends), Math.max(...ends)];
-  const far = Math.max(Math.abs(low), Math.abs(high));
+  const far = Math.max(...ends.map(Math.abs));
+  const [low, high] = [Math.min(...ends), Math.max(...ends)].map((end) => (Math.abs(end) < 1e-9 * far ? 0 : end)); // rounding
   if (low * high > 0 && high - low < kFromZero * far) {
     const margin = 0.5 * (high - low) || 0.1 * far;
     return { low: low - margin, high: high + margin, isCut: true };
