@@ -53,6 +53,7 @@ Section make_over_time(const scenarios::RunSpec& spec, const scenarios::Outcome&
   Section section{"The test over time"};
   section.blocks.push_back({{"type", "time_bar"}, {"phases", make_phases(recording.phases)}});
   section.blocks.push_back(make_animation(spec, recording));
+  if (std::optional<Block> heat = make_cross_section(spec, recording)) section.blocks.push_back(std::move(*heat));
   section.blocks.push_back(make_times(recording));
   return section;
 }

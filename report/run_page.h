@@ -1,6 +1,8 @@
 #pragma once
 /// What `rollrig run` shows: the page with its parts, the text of the terminal.
 
+#include <optional>
+
 #include "report/page.h"
 #include "scenarios/run/scenario.h"
 
@@ -16,6 +18,10 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
 /// The drum with its carriage, or the vehicle on rollers or road, from the recorded poses of a multibody run. A
 /// quasi-static run has none: angles are then integrals of the recorded speed and heights follow from the load.
 Block make_animation(const scenarios::RunSpec& spec, const sim::Recording<double>& recording);
+
+/// A section through the tire with its temperatures and heat flows over time; none where the recording does not have
+/// what they follow from. On a vehicle of the first wheel that rolls.
+std::optional<Block> make_cross_section(const scenarios::RunSpec& spec, const sim::Recording<double>& recording);
 
 /// Figures of `result`: rolling energy by section with that by the ISO coefficient beside it, resistance from cycle to
 /// cycle, force over speed or load. No blocks where it has nothing of these.

@@ -56,19 +56,20 @@ void write_set(const TemporaryFolder& folder) {
 TEST_CASE("page of an ISO test on the multibody drum", "[slow]") {
   const TemporaryFolder folder;
   check_command(folder, "run iso_28580 --tire a50 --out run",
-                "--charts 2 --animation --recording '" + folder.file("run/recording.csv") + "'");
+                "--charts 2 --animation --section --recording '" + folder.file("run/recording.csv") + "'");
 }
 
 TEST_CASE("page of a multi-cycle test of a quarter on its roller", "[slow]") {
-  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --set wheels=1", "--charts 4 --animation");
+  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --set wheels=1", "--charts 4 --animation --section");
 }
 
 TEST_CASE("page of a multi-cycle test of four wheels, four hours long", "[slow]") {
-  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --fidelity quasi_static", "--charts 4 --animation");
+  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --fidelity quasi_static",
+                "--charts 4 --animation --section");
 }
 
 TEST_CASE("page of a vehicle that coasts down on the road", "[slow]") {
-  check_command(TemporaryFolder(), "run coastdown --tire a50", "--charts 3 --animation");
+  check_command(TemporaryFolder(), "run coastdown --tire a50", "--charts 3 --animation --section");
 }
 
 TEST_CASE("page of two hours with ten rows a second", "[slow]") {

@@ -1,5 +1,5 @@
 // Opens a page of rollrig in headless Chromium and checks it. One line a finding; exit status 1 where one is bad.
-// node check_page.mjs <page.html> [--charts N] [--animation] [--recording FILE.csv] [--shows TEXT] [--screenshots DIR]
+// node check_page.mjs <page.html> [--charts N] [--animation] [--section] [--recording FILE.csv] [--shows TEXT] [--screenshots DIR]
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
@@ -189,6 +189,37 @@ async function checkSaving() {
   }
 }
 
+/// The section through the tire moves with the slider, and shows the flows of the page's data: what arises goes to air and
+/// surface, or is stored.
+async function checkSection() {
+  const look = `(() => ({ flows: [...document.querySelectorAll('.crosssection .flow')].map((flow) => flow.getAttribute('d')).join(), colors: [...document.querySelectorAll('.crosssection [fill]')].map((part) => part.getAttribute('fill')).join(),
+    shown: Object.fromEntries([...document.querySelectorAll('.crosssection .flowlabel')].map((text) => [text.firstChild.textContent, text.lastChild.textContent])),
+    stored: [...document.querySelectorAll('.heatvalues tr')].find((row) => row.textContent.startsWith('stored')).children[1].textContent }))()`;
+  const block = await chromium.evaluate(`JSON.parse(document.getElementById('payload').textContent).sections.flatMap((s) => s.blocks).find((b) => b.type === 'cross_section')`);
+  const watt = (text) => Number(text.replace('\u2212', '-').replace(' W', ''));
+  let wrong = '';
+  let looks = 0;
+  let before;
+  let moved = 0;
+  for (let i = 0; i < block.generated_W.length; i += Math.ceil(block.generated_W.length / 12)) {
+    const time_s = 0.5 * (block.t[i] + block.t[i + 1]);
+    const now = await chromium.evaluate(`(rollrig.clock.set(${time_s}), ${look})`);
+    if (before && before.flows !== now.flows && before.colors !== now.colors) ++moved;
+    before = now;
+    if (time_s < await chromium.evaluate('rollrig.clock.start_s')) continue; // a soak, before the slider begins
+    ++looks;
+    const flows = [now.shown.loss, now.shown['to air'], now.shown[`to ${block.surface}`], now.stored].map(watt);
+    const given = [block.generated_W, block.to_air_W, block.to_surface_W, block.stored_W].map((values) => values[i]);
+    if (!flows.every((flow, k) => Math.abs(flow - given[k]) <= 0.51)) wrong = `${flows} W shown at ${time_s} s, ${given} W given`;
+    const left_W = flows[0] - flows[1] - flows[2] - flows[3];
+    // Four numbers are rounded to a watt. Where the load jumps within a sample, its mean stands for a value.
+    if (!(Math.abs(left_W) <= 2 + 0.03 * Math.max(...block.generated_W))) wrong = `${left_W} W are left over at ${time_s} s`;
+  }
+  check(looks > 3 && wrong === '', `the section shows flows that add up, at ${looks} times: ${wrong}`);
+  check(moved > 2, `arrows and colors of the section move with the slider, ${moved} times`);
+  check((await measureInk((await capture('.crosssection', 0)).png)).ink > 0.05, 'the section is drawn');
+}
+
 async function checkWords() {
   const odd = await chromium.evaluate(`(document.querySelector('main').textContent.match(/.{0,40}(\\[object|undefined|NaN|Infinity).{0,20}/) || [''])[0]`);
   check(odd === '', `no word that a person is not to see: ${odd}`);
@@ -316,6 +347,7 @@ async function checkPage() {
   await checkAccess();
   await checkSaving();
   if (args.includes('--animation')) await checkAnimation();
+  if (args.includes('--section')) await checkSection();
   if (option('--recording')) await checkReadings(option('--recording'));
   await checkNarrow();
   await checkDarkAndPaper();

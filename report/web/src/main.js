@@ -13,11 +13,12 @@ import { chartCount, drawAll, showTips } from './chart.js';
 import { Clock } from './clock.js';
 import { h } from './dom.js';
 import { animationBlock } from './animation/animation.js';
+import { crossSectionBlock } from './animation/section.js';
 import { makeThemeButton, setOnPaper, startTheme } from './theme.js';
 import { timeBarBlock } from './timebar.js';
 
-export const kBlocks = {
-  bars: barsBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
+const kBlocks = {
+  bars: barsBlock, cross_section: crossSectionBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
   map: mapBlock, pre: preBlock, animation: animationBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
   time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
   waterfall: waterfallBlock,
