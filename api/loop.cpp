@@ -22,7 +22,9 @@ Loop advance_loop(const LoopInput& input) {
   loop.make_page = [step, options] {
     const diagnosis::Diagnosis found =
         step->diagnosis.has_value() ? *step->diagnosis : diagnosis::diagnose(step->set, options);
-    return report::make_html(report::make_diagnosis_page(step->set, found));
+    report::Page page = report::make_diagnosis_page(step->set, found);
+    page.sections.insert(page.sections.begin() + 1, report::make_loop_section(step->ledger));  // after the verdict
+    return report::make_html(page);
   };
   return loop;
 }

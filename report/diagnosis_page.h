@@ -3,6 +3,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/output/fleet.h"
+#include "include/rollrig/loop.h"
 #include "report/page.h"
 
 namespace rollrig::report {
@@ -24,6 +25,9 @@ Block make_balance(const Findings& findings);
 Section make_next(const Findings& findings);
 /// Equation, source, priors of what is named and of what cannot be told from it.
 Section make_explanations(const Findings& findings);
+
+/// The ledger of a loop of tests: probabilities over the hours of the machine, and what each answer was.
+Section make_loop_section(const LoopLedger& ledger);
 
 /// A folder of sets: a row each, and what comes back.
 Page make_fleet_page(const diagnosis::Fleet& fleet);

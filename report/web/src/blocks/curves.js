@@ -1,5 +1,5 @@
 // Curves and points over a quantity that is not time:
-// {x: {label, unit}, y: {label, unit}, series: [{name, kind: line | points, x, y, low, high}], caption}
+// {x: {label, unit}, y: {label, unit}, series: [{name, kind: line | steps | points, x, y, low, high}], caption}
 // A line's low and high are a band, those of points are whiskers.
 import { axisStyle, axisTitle, baseOption, Chart, figure, tipLine } from '../chart.js';
 import { h } from '../dom.js';
@@ -39,7 +39,7 @@ function makeSeries(series, k) {
   const isLine = series.kind !== 'points';
   const main = {
     name: series.name, type: isLine ? 'line' : 'scatter', data: series.x.map((x, i) => [x, series.y[i]]), z: isLine ? 3 : 4,
-    showSymbol: isLine && series.x.length <= 25, symbol: kSymbols[k % kSymbols.length], symbolSize: isLine ? 6 : series.x.length > 400 ? 3 : 6,
+    step: series.kind === 'steps' ? 'end' : false, showSymbol: isLine && series.x.length <= 25, symbol: kSymbols[k % kSymbols.length], symbolSize: isLine ? 6 : series.x.length > 400 ? 3 : 6,
     itemStyle: { color: style.color, opacity: !isLine && series.x.length > 400 ? 0.5 : 1 }, lineStyle: { color: style.color, type: style.type, width: 1.8 },
   };
   if (!series.low) return [main];

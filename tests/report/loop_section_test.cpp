@@ -1,0 +1,33 @@
+// The page of a loop: its ledger as steps.
+#include <catch2/catch.hpp>
+
+#include "report/diagnosis_page.h"
+
+using namespace rollrig;
+
+TEST_CASE("the ledger of a loop is a step for each answer, to the hours that are used", "[fast]") {
+  LoopLedger ledger;
+  ledger.hours = 8.0;
+  ledger.tests = {{"skim_sweep", "a skim sweep", 1.5, 0.4, 0.35, {}, {}, LoopTestState::kMeasured},
+                  {"load_sweep", "a load sweep", 2.0, 0.3, 0.6, {}, {}, LoopTestState::kFailed}};
+  LoopAnswer first;
+  first.effects = {"slip"};
+  first.probability = 0.4;
+  first.none = 0.1;
+  first.unknown = 0.05;
+  LoopAnswer second = first;
+  second.tests = 1;
+  second.hours = 1.5;
+  second.effects = {"bearing_warmup"};
+  second.probability = 0.97;
+  ledger.answers = {first, second};
+  const report::Section section = report::make_loop_section(ledger);
+  REQUIRE(section.blocks.size() == 2);
+  const Json& cause = section.blocks[0]["series"][0];
+  CHECK(cause["kind"] == "steps");
+  CHECK(cause["x"] == Json({0.0, 1.5, 3.5}));  // the failed test took its hours
+  CHECK(cause["y"] == Json({40.0, 97.0, 97.0}));
+  CHECK(section.blocks[0]["series"][2]["y"][0] == 5.0);
+  CHECK(section.blocks[1]["rows"][1][2] == "bearing_warmup");
+  CHECK(report::make_loop_section(LoopLedger()).blocks.empty());
+}
