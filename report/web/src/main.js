@@ -17,7 +17,7 @@ import { crossSectionBlock } from './animation/section.js';
 import { makeThemeButton, setOnPaper, startTheme } from './theme.js';
 import { timeBarBlock } from './timebar.js';
 
-const kBlocks = {
+export const kBlocks = {
   bars: barsBlock, cross_section: crossSectionBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
   map: mapBlock, pre: preBlock, animation: animationBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
   time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
