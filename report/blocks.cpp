@@ -30,6 +30,18 @@ Json make_series(const std::string& name, const std::vector<double>& time_s, con
   return {{"name", name}, {"t", t}, {"y", y}};
 }
 
+Block make_tiles(const std::vector<Tile>& tiles) {
+  Block block = {{"type", "tiles"}, {"tiles", Json::array()}};
+  for (const Tile& tile : tiles) {
+    Json json = {{"label", tile.label}, {"value", tile.value}};
+    if (!tile.unit.empty()) json["unit"] = pretty_unit(tile.unit);
+    if (!tile.note.empty()) json["note"] = tile.note;
+    if (!tile.tone.empty()) json["tone"] = tile.tone;
+    block["tiles"].push_back(std::move(json));
+  }
+  return block;
+}
+
 Block make_table(const Table& table) {
   Block block = {{"type", "lines"}, {"lines", Json::array()}};
   if (!table.columns.empty()) block = {{"type", "table"}, {"columns", Json::array()}, {"rows", Json::array()}};

@@ -30,6 +30,18 @@ Json make_series(const std::string& name, const std::vector<double>& time_s, con
 std::vector<std::size_t> thin(const std::vector<double>& time_s, const std::vector<double>& values, std::size_t most,
                               double tolerance = 0.0);
 
+/// One figure that a page says at a glance.
+struct Tile {
+  std::string label;
+  std::string value;      // as it is shown: "7.12", "7.12 +- 0.05", or words
+  std::string unit = {};  // as units.h spells it
+  std::string note = {};  // a sentence below
+  std::string tone = {};  // good, doubt or bad
+};
+
+/// Tiles side by side, in their order.
+Block make_tiles(const std::vector<Tile>& tiles);
+
 Block make_table(const Table& table);
 
 /// A growing series of a chart: points, or a line, with intervals or without.

@@ -7,6 +7,7 @@ import { inputsBlock } from './blocks/inputs.js';
 import { mapBlock, sharesBlock } from './blocks/map.js';
 import { linesBlock, tableBlock } from './blocks/table.js';
 import { definitionsBlock, leadBlock, preBlock, textBlock, warningsBlock } from './blocks/text.js';
+import { tilesBlock } from './blocks/tiles.js';
 import { timesBlock } from './blocks/times.js';
 import { waterfallBlock } from './blocks/waterfall.js';
 import { chartCount, drawAll, showTips } from './chart.js';
@@ -20,8 +21,7 @@ import { timeBarBlock } from './timebar.js';
 export const kBlocks = {
   bars: barsBlock, cross_section: crossSectionBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
   map: mapBlock, pre: preBlock, animation: animationBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
-  time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
-  waterfall: waterfallBlock,
+  tiles: tilesBlock, time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
 };
 
 export const slug = (title) => title.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
