@@ -9,6 +9,7 @@
 #include <boost/algorithm/string/split.hpp>
 
 #include "api/data.h"
+#include "api/run_items.h"
 #include "campaigns/items.h"
 #include "rollrig/version.h"
 #include "sim/core/csv.h"
@@ -304,6 +305,32 @@ void require_list_alone(const RunCampaignInput& input) {
 
 }  // namespace
 
+namespace {
+
+/// The tires of a campaign with a factor "tire"; empty where all items have one tire.
+std::vector<std::string> list_tire_values(const RunCampaignInput& input) {
+  for (const SweepAxis& axis : input.axes) {
+    if (axis.key == kTireFactor) return axis.values;
+  }
+  for (const campaigns::Factor& factor : read_list(input.list)) {
+    if (factor.key == kTireFactor) return factor.values;
+  }
+  return {};
+}
+
+void require_tire_once(const RunCampaignInput& input, const std::vector<std::string>& tires) {
+  if (tires.empty()) return;
+  if (!input.run.tire.empty()) {
+    throw InputError({"the tire is a factor and given by --tire", "command line", 0, "--tire", input.run.tire,
+                      "either --tire or the factor", ""});
+  }
+  if (std::find(input.drawn_sd.begin(), input.drawn_sd.end(), "tire") == input.drawn_sd.end()) return;
+  throw InputError({"numbers of one tire cannot be drawn where the tire varies", "command line", 0, "--draw-sd", "tire",
+                    "either --draw-sd tire or the factor", ""});
+}
+
+}  // namespace
+
 CampaignDefinition make_definition(const RunCampaignInput& input) {
   require_list_alone(input);
   CampaignDefinition definition;
@@ -315,9 +342,13 @@ CampaignDefinition make_definition(const RunCampaignInput& input) {
     *name = absolute_if_path(*name);
   }
   for (std::string& setting : definition.run.settings) make_setting_absolute(setting);
-  const scenarios::RunSpec spec = read_run(input.run);
+  const std::vector<std::string> tires = list_tire_values(input);
+  require_tire_once(input, tires);
+  RunInput first = input.run;
+  if (!tires.empty()) first.tire = tires.front();
+  const scenarios::RunSpec spec = read_run(first);
   // Assets by their paths: their names may stand for other files where and when an item is carried out.
-  definition.run.tire = fs::absolute(spec.tire.path).string();
+  if (tires.empty()) definition.run.tire = fs::absolute(spec.tire.path).string();
   if (spec.scenario->has_rig()) definition.run.rig = fs::absolute(spec.rig.path).string();
   if (spec.vehicle.has_value()) definition.run.vehicle = fs::absolute(spec.vehicle->path).string();
   campaigns::DesignInput& design = definition.design;
@@ -328,7 +359,13 @@ CampaignDefinition make_definition(const RunCampaignInput& input) {
                                       : campaigns::kList;
   design.factors = list_factors(input, spec);
   for (campaigns::Factor& factor : design.factors) {
-    for (std::string& value : factor.values) make_absolute_if_file(value);
+    for (std::string& value : factor.values) {
+      if (factor.key == kTireFactor) {
+        value = absolute_if_path(value);  // a name stays: results show it, and its file's hash is in the definition
+      } else {
+        make_absolute_if_file(value);
+      }
+    }
   }
   design.correlated = list_correlated(design.factors, input.axes.size() + input.drawn.size(), spec);
   design.points = input.points;

@@ -24,6 +24,14 @@ void carry_out_quickly(scenarios::RunSpec spec) {
   }
 }
 
+void set_factor(const std::string& key, const std::string& value, RunInput& run) {
+  if (key == kTireFactor) {
+    run.tire = value;
+  } else {
+    run.settings.push_back(key + "=" + value);
+  }
+}
+
 RunItems::RunItems(const CampaignDefinition& definition)
     : run_(definition.run),
       factors_(definition.design.factors),
@@ -113,7 +121,7 @@ CampaignItems::Check RunItems::check() const {
 
 scenarios::RunSpec RunItems::read(const std::vector<std::string>& values, std::uint64_t seed) const {
   RunInput run = run_;
-  for (std::size_t f = 0; f < values.size(); ++f) run.settings.push_back(factors_[f].key + "=" + values[f]);
+  for (std::size_t f = 0; f < values.size(); ++f) set_factor(factors_[f].key, values[f], run);
   run.seed = std::to_string(seed);
   return read_run(run);
 }

@@ -15,6 +15,11 @@ namespace rollrig {
 /// does not matter.
 void carry_out_quickly(scenarios::RunSpec spec);
 
+/// The factor and axis whose values are tires, by name or path, and not numbers of a file.
+constexpr const char* kTireFactor = "tire";
+/// Sets a factor of a sweep or a campaign: the tire, or a setting.
+void set_factor(const std::string& key, const std::string& value, RunInput& run);
+
 class RunItems : public CampaignItems {
  public:
   /// Throws InputError for a design that cannot be made.

@@ -11,6 +11,7 @@
 #include <boost/algorithm/string/split.hpp>
 
 #include "api/data.h"
+#include "api/run_items.h"
 #include "api/sweep_items.h"
 #include "api/unfinished_sweep.h"
 #include "campaigns/items.h"
@@ -40,6 +41,19 @@ InputError bad_axis(const std::string& text, const std::string& what = "is not u
   return InputError({fmt::format("--vary '{}' {}", text, what), "command line", 0, "--vary", text, allowed, ""});
 }
 
+/// Refuses tires that are varied and given by --tire, or among which one comes twice.
+void require_tires_once(const SweepInput& input, const SweepAxis& axis) {
+  if (!input.run.tire.empty()) {
+    throw InputError({"the tire is varied and given by --tire", "command line", 0, "--tire", input.run.tire,
+                      "--vary tire=... or --tire", ""});
+  }
+  for (auto value = axis.values.begin(); value != axis.values.end(); ++value) {
+    if (std::find(axis.values.begin(), value, *value) == value) continue;
+    throw InputError(
+        {fmt::format("the tire '{}' comes twice", *value), "command line", 0, "--vary", *value, "each tire once", ""});
+  }
+}
+
 /// Refuses a setting that is varied twice, or varied and set.
 void require_once(const SweepInput& input) {
   for (auto axis = input.axes.begin(); axis != input.axes.end(); ++axis) {
@@ -48,6 +62,7 @@ void require_once(const SweepInput& input) {
       throw InputError({fmt::format("'{}' is varied twice", axis->key), "command line", 0, "--vary", axis->key,
                         "each setting in one --vary", ""});
     }
+    if (axis->key == kTireFactor) require_tires_once(input, *axis);
     const auto sets = [&](const std::string& setting) { return setting.rfind(axis->key + "=", 0) == 0; };
     if (std::any_of(input.run.settings.begin(), input.run.settings.end(), sets)) {
       throw InputError({fmt::format("'{}' is varied and set", axis->key), "command line", 0, "--set", axis->key,
@@ -167,6 +182,15 @@ std::vector<std::string> choose_shown(const std::vector<std::string>& asked, con
   return shown;
 }
 
+/// "Tire a50, rig drum_2m", without the tire where that is varied.
+std::string name_subject(const SweepInput& input, const scenarios::RunSpec& first) {
+  const bool has_tires =
+      std::any_of(input.axes.begin(), input.axes.end(), [](const SweepAxis& axis) { return axis.key == kTireFactor; });
+  const std::string rig = first.scenario->has_rig() ? first.rig.name : "";
+  if (has_tires) return rig.empty() ? "Several tires" : fmt::format("Rig {}", rig);
+  return fmt::format("Tire {}, rig {}", first.tire.name, first.rig.name);
+}
+
 }  // namespace
 
 std::size_t SweepResult::count_failures() const {
@@ -274,7 +298,7 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
     manifests.back() = std::move(stored["manifest"]);
   }
   for (const SweepAxis& axis : items.input().axes) sweep.axes.push_back(axis.key);
-  sweep.points = items.points();
+  sweep.points = items.list_shown_points();
   if (sweep.count_failures() == records.size()) {
     remove_unfinished();
     throw RunFailure(
@@ -305,7 +329,7 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
       {"sweep.csv", make_csv(sweep)}, {"sweep.json", sweep.json}, {"manifests.json", to_text(all_manifests)}};
   sweep.make_files = [files] { return files; };
   sweep.make_page = [flat, data = data_] {
-    const std::string of = fmt::format("Tire {}, rig {}", data->first.tire.name, data->first.rig.name);
+    const std::string of = name_subject(data->items.input(), data->first);
     return report::make_html(report::make_sweep_page(flat, data->items.input().shown, of));
   };
   return sweep;

@@ -24,17 +24,37 @@ Json SweepItems::carry_out(std::size_t item, std::uint64_t) const {
 scenarios::RunSpec SweepItems::read(std::size_t item) const {
   RunInput run = input_.run;
   for (std::size_t a = 0; a < input_.axes.size(); ++a) {
-    run.settings.push_back(input_.axes[a].key + "=" + points_[item][a]);
+    set_factor(input_.axes[a].key, points_[item][a], run);
   }
   return read_run(run);
 }
 
 void SweepItems::check() {
   const ReadRecorder recorder;
-  for (std::size_t item = 0; item < count(); ++item) scenarios::prepare_run(read(item));
+  for (std::size_t item = 0; item < count(); ++item) {
+    const scenarios::RunSpec spec = read(item);
+    scenarios::prepare_run(spec);
+    for (std::size_t a = 0; a < input_.axes.size(); ++a) {
+      if (input_.axes[a].key == kTireFactor) tire_names_[points_[item][a]] = spec.tire.name;
+    }
+  }
   if (!input_.unfinished_folder.empty()) carry_out_quickly(read(0));
   files_ = hash_files(recorder.list_files());
   watch_files(files_);
+}
+
+std::vector<SweepPoint> SweepItems::list_shown_points() const {
+  std::map<std::string, std::size_t> uses;  // two files may give one name
+  for (const auto& [given, name] : tire_names_) ++uses[name];
+  std::vector<SweepPoint> shown = points_;
+  for (SweepPoint& point : shown) {
+    for (std::size_t a = 0; a < input_.axes.size(); ++a) {
+      if (input_.axes[a].key != kTireFactor) continue;
+      const std::string& name = tire_names_.at(point[a]);
+      if (uses.at(name) == 1) point[a] = name;
+    }
+  }
+  return shown;
 }
 
 std::string SweepItems::define(std::uint64_t seed) const {

@@ -1,6 +1,7 @@
 #pragma once
 /// The points of a sweep as items.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ class SweepItems : public WatchedItems {
   const SweepInput& input() const { return input_; }
   const std::vector<SweepPoint>& points() const { return points_; }
   scenarios::RunSpec read(std::size_t item) const;
+  /// The values of the axes as people read them: of an axis of tires the tires' names. To be called after check().
+  std::vector<SweepPoint> list_shown_points() const;
   /// Reads all points, and watches their files from then on. If finished points are saved, it also carries out one in
   /// the quicker fidelity, for the files that are read only then. Throws InputError where one is wrong.
   void check();
@@ -36,6 +39,7 @@ class SweepItems : public WatchedItems {
   SweepInput input_;
   std::vector<SweepPoint> points_;
   std::vector<CampaignFile> files_;
+  std::map<std::string, std::string> tire_names_;  // by what an axis of tires says
 };
 
 }  // namespace rollrig

@@ -12,6 +12,8 @@
 namespace rollrig::report {
 namespace {
 
+constexpr const char* kTireAxis = "tire";  // of tires, by name
+
 /// Settings that are varied, in their order.
 std::vector<std::string> find_axes(const Json& sweep) {
   std::vector<std::string> axes;
@@ -25,34 +27,70 @@ bool is_numeric(const Json& sweep, const std::string& axis) {
   });
 }
 
-/// Values of the axes other than the first, as one name: a line each.
+/// Values of some axes as one name: a line, or a color of bars.
 std::string name_line(const Json& point, const std::vector<std::string>& axes) {
   std::string name;
-  for (std::size_t i = 1; i < axes.size(); ++i) {
-    name += fmt::format("{}{} {}", i > 1 ? ", " : "", axes[i], point["set"][axes[i]].get<std::string>());
+  for (const std::string& axis : axes) {
+    const std::string value = point["set"][axis];
+    if (!name.empty()) name += ", ";
+    name += axis == kTireAxis ? value : fmt::format("{} {}", axis, value);
   }
   return name;
 }
 
-Block make_sweep_chart(const Json& sweep, const std::vector<std::string>& axes, const std::string& result) {
-  Json series = Json::array();
-  for (const Json& point : sweep["points"]) {
-    const std::string name = axes.size() > 1 ? name_line(point, axes) : plain_name(result);
-    auto at = std::find_if(series.begin(), series.end(), [&name](const Json& each) { return each["name"] == name; });
-    if (at == series.end()) {
-      series.push_back({{"name", name}, {"kind", "line"}, {"x", Json::array()}, {"y", Json::array()}});
-      at = series.end() - 1;
-    }
-    const Json value = point["result"].value(result, Json(nullptr));
-    (*at)["x"].push_back(*parse_number(point["set"][axes.front()].get<std::string>()));
-    (*at)["y"].push_back(value.is_number() ? rounded(value.get<double>()) : Json(nullptr));
+/// The axis along which results are drawn: the first of numbers, else the first.
+std::string choose_drawn_axis(const Json& sweep, const std::vector<std::string>& axes) {
+  const auto numeric =
+      std::find_if(axes.begin(), axes.end(), [&sweep](const std::string& axis) { return is_numeric(sweep, axis); });
+  return numeric != axes.end() ? *numeric : axes.front();
+}
+
+/// The series of a name, which is made where it is not there yet.
+Json& find_series(Json& series, const std::string& name, const Json& empty) {
+  for (Json& each : series) {
+    if (each["name"] == name) return each;
   }
-  const std::string axis = last_part(axes.front());
-  return make_curves({plain_name(axis), shown_unit(axis)}, {plain_name(result), shown_unit(result)}, series);
+  series.push_back(empty);
+  series.back()["name"] = name;
+  return series.back();
+}
+
+Json read_result(const Json& point, const std::string& result) {
+  const Json value = point["result"].value(result, Json(nullptr));
+  return value.is_number() ? rounded(value.get<double>()) : Json(nullptr);
+}
+
+/// Lines over a quantity, or bars over tires and other words; a line or a color for each of the values of the others.
+Block make_sweep_chart(const Json& sweep, const std::vector<std::string>& axes, const std::string& result) {
+  const std::string drawn = choose_drawn_axis(sweep, axes);
+  std::vector<std::string> others = axes;
+  others.erase(std::find(others.begin(), others.end(), drawn));
+  const bool has_lines = is_numeric(sweep, drawn);
+  const Json empty = has_lines ? Json{{"name", ""}, {"kind", "line"}, {"x", Json::array()}, {"y", Json::array()}}
+                               : Json{{"name", ""}, {"values", Json::array()}};
+  Json series = Json::array();
+  Json categories = Json::array();
+  for (const Json& point : sweep["points"]) {
+    Json& own = find_series(series, others.empty() ? plain_name(result) : name_line(point, others), empty);
+    const Json at = point["set"][drawn];
+    if (has_lines) own["x"].push_back(*parse_number(at.get<std::string>()));
+    own[has_lines ? "y" : "values"].push_back(read_result(point, result));
+    if (std::find(categories.begin(), categories.end(), at) == categories.end()) categories.push_back(at);
+  }
+  const Axis y{plain_name(result), shown_unit(result)};
+  if (!has_lines) return make_bars(y, categories, series);
+  const std::string axis = last_part(drawn);
+  return make_curves({plain_name(axis), shown_unit(axis)}, y, series);
 }
 
 /// Not of a list.
 bool is_alone(const std::string& key) { return key.find('.') == std::string::npos; }
+
+/// Whether there is a chart: of other words than tires, what is alike is not known.
+bool is_shown(const Json& sweep, const std::vector<std::string>& axes) {
+  const std::string drawn = choose_drawn_axis(sweep, axes);
+  return drawn == kTireAxis || is_numeric(sweep, drawn);
+}
 
 /// A result at every point, null where a point has none.
 std::vector<Json> list_values(const Json& sweep, const std::string& key) {
@@ -131,7 +169,7 @@ Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const st
     failures.push_back(fmt::format("{}: {}", name, point["failure"].get<std::string>()));
   }
   if (!failures.empty()) charts.blocks.push_back(make_warnings(failures));
-  if (is_numeric(sweep, axes.front()) && sweep["points"].size() > 1) {
+  if (is_shown(sweep, axes) && sweep["points"].size() > 1) {
     for (const std::string& result : shown) charts.blocks.push_back(make_sweep_chart(sweep, axes, result));
   }
   page.add(std::move(charts));
