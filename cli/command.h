@@ -126,6 +126,7 @@ void add_list_command(CLI::App& app, Action& action);
 /// What `list` takes: scenarios, effects and the folders of assets.
 std::vector<std::string> list_kinds();
 void add_align_command(CLI::App& app, Action& action);
+void add_compare_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_label_command(CLI::App& app, Action& action);
 void add_describe_command(CLI::App& app, Action& action);

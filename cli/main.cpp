@@ -143,6 +143,7 @@ int make_and_run(int argc, char** argv) {
   add_moved_command(app, action);
   add_convert_command(app, action);
   add_align_command(app, action);
+  add_compare_command(app, action);
   add_label_command(app, action);
   add_completion_command(app, action);
   add_man_command(app, action);

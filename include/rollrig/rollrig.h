@@ -3,6 +3,7 @@
 
 #include "align.h"
 #include "assets.h"
+#include "compare.h"
 #include "convert.h"
 #include "diagnose.h"
 #include "error.h"

@@ -1,5 +1,5 @@
 // Includes follow one direction: cli -> api -> report -> diagnosis -> scenarios -> estimation -> measurements -> rigs
-// -> models -> sim/core, rigs -> sim -> sim/core, and api -> campaigns -> sim/core. Validation stands on top of all of
+// -> models -> sim/core, report -> comparison -> diagnosis, rigs -> sim -> sim/core, and api -> campaigns -> sim/core. Validation stands on top of all of
 // it, its generator on sim/core alone.
 // Third-party packages stay behind a few files.
 #include <algorithm>
@@ -34,6 +34,7 @@ const std::vector<std::string> kOrder{"include/rollrig",
                                       "scenarios",
                                       "exports",
                                       "diagnosis",
+                                      "comparison",
                                       "report",
                                       "campaigns",
                                       "api",
@@ -102,8 +103,8 @@ std::size_t rank_of(const std::string& folder) {
 }
 
 const std::vector<const char*> kTops{"include",    "sim",       "tables",  "models",    "rigs",       "measurements",
-                                     "estimation", "scenarios", "exports", "diagnosis", "validation", "report",
-                                     "campaigns",  "api",       "serve",   "cli",       "examples"};
+                                     "estimation", "scenarios", "exports", "diagnosis", "comparison", "validation", "report",
+                                     "campaigns",  "api",       "cli",     "examples"};
 
 template <class Visit>
 void visit_includes(Visit&& visit) {

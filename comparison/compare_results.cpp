@@ -1,0 +1,288 @@
+#include "comparison/compare_results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "comparison/budget_difference.h"
+#include "comparison/energy_waterfall.h"
+#include "comparison/input_differences.h"
+#include "comparison/overlay.h"
+#include "comparison/result_folder.h"
+#include "scenarios/run/flat_results.h"
+#include "scenarios/run/scenario.h"
+#include "sim/core/error.h"
+#include "sim/core/units.h"
+
+namespace rollrig::comparison {
+namespace {
+
+void require_one_scenario(const std::vector<ResultFolder>& folders) {
+  const auto name_scenario = [](const ResultFolder& folder) { return folder.result.value("scenario", std::string()); };
+  const std::string first = name_scenario(folders.front());
+  for (const ResultFolder& folder : folders) {
+    if (name_scenario(folder) == first) continue;
+    throw InputError({"results of different scenarios have nothing to compare", folder.file_of("result.json"), 0,
+                      "scenario", name_scenario(folder), fmt::format("{}, as the first of the results", first), ""});
+  }
+}
+
+/// The budgets of a result by the key of what they are of.
+const Json* find_budget(const ResultFolder& folder, const std::string& key) {
+  const auto uncertainty = folder.result.find("uncertainty");
+  if (uncertainty == folder.result.end()) return nullptr;
+  for (const Json& budget : (*uncertainty)["budgets"]) {
+    if (budget["key"] == key) return &budget;
+  }
+  return nullptr;
+}
+
+std::string find_declared_doc(const std::string& scenario, const std::string& key) {
+  const scenarios::Scenario* found = scenarios::find_scenario_if_any(scenario);
+  if (found == nullptr) return "";
+  for (const scenarios::ResultInfo& info : found->results) {
+    if (info.key == scenarios::find_declared_key(key)) return info.doc;
+  }
+  return "";
+}
+
+/// "sections, city 1: rr energy" of "sections.city_1.rr_energy_Wh".
+std::string label_result(const std::string& key) {
+  const std::size_t last = key.rfind('.');
+  if (last == std::string::npos) return plain_name(key);
+  std::string record = key.substr(0, last);
+  std::replace(record.begin(), record.end(), '.', ' ');
+  std::replace(record.begin(), record.end(), '_', ' ');
+  return fmt::format("{}: {}", record, plain_name(key.substr(last + 1)));
+}
+
+std::optional<double> find_number(const Json& flat, const std::string& key) {
+  const auto found = flat.find(key);
+  return found != flat.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
+/// Results of all by one key, and their differences without intervals.
+ComparedValue make_value(const std::string& key, const std::vector<Json>& flat) {
+  ComparedValue value;
+  value.name = key;
+  value.label = label_result(key);
+  value.unit = unit_of_key(key.substr(key.rfind('.') + 1)).symbol;
+  for (const Json& of : flat) value.values.push_back(find_number(of, key));
+  for (std::size_t i = 1; i < flat.size(); ++i) {
+    value.differences.push_back(subtract(value.values[i], value.values.front(), value.unit));
+  }
+  return value;
+}
+
+std::vector<std::string> list_keys(const std::vector<Json>& flat) {
+  std::vector<std::string> keys;
+  std::set<std::string> known;
+  for (const Json& of : flat) {
+    for (const auto& [key, value] : of.items()) {
+      if (known.insert(key).second) keys.push_back(key);
+    }
+  }
+  return keys;
+}
+
+SharedInputs find_shared(const ResultFolder& reference, const ResultFolder& other) {
+  const Json a = strip_manifest(reference.manifest);
+  const Json b = strip_manifest(other.manifest);
+  const auto is_same = [&](const char* key) { return a.value(key, Json()) == b.value(key, Json()); };
+  const auto drop_tires = [](Json vehicle) {
+    if (vehicle.is_object() && vehicle.contains("axles")) {
+      for (Json& axle : vehicle["axles"]) axle.erase("tire");
+    }
+    return vehicle;
+  };
+  const bool is_one_vehicle = drop_tires(a.value("vehicle", Json())) == drop_tires(b.value("vehicle", Json()));
+  return {a == b && reference.result["result"] == other.result["result"],
+          is_same("rig") && is_same("sensors") && is_one_vehicle, is_same("tire")};
+}
+
+/// Results with a budget that are no results of their own, such as an energy over all sections.
+void add_budget_values(const std::vector<ResultFolder>& folders, std::vector<Json>& flat) {
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const Json budgets = folders[i].result.value("uncertainty", Json::object()).value("budgets", Json::array());
+    for (const Json& budget : budgets) {
+      const std::string key = budget["key"];
+      if (!flat[i].contains(key)) flat[i][key] = budget["value"];
+    }
+  }
+}
+
+/// Why a result has no interval.
+std::string explain_no_interval(const ResultFolder& folder, const std::string& name, const std::string& scenario) {
+  if (folder.result.contains("uncertainty")) return "no budget is of this result";
+  const scenarios::Scenario* found = scenarios::find_scenario_if_any(scenario);
+  if (found != nullptr && !found->has_uncertainty) return fmt::format("{} has no uncertainty budget", scenario);
+  return fmt::format("{} was run without --uncertainty", name);
+}
+
+void add_intervals(const std::vector<ResultFolder>& folders, Comparison& comparison) {
+  const std::string scenario = folders.front().result["scenario"];
+  for (ComparedValue& value : comparison.values) {
+    const Json* reference = find_budget(folders.front(), value.name);
+    if (reference != nullptr) value.label = (*reference)["name"].get<std::string>();
+    for (std::size_t i = 1; i < folders.size(); ++i) {
+      Difference& difference = value.differences[i - 1];
+      const Json* other = find_budget(folders[i], value.name);
+      if (reference == nullptr || other == nullptr) {
+        const std::size_t lacking = reference == nullptr ? 0 : i;
+        add_reason(explain_no_interval(folders[lacking], comparison.names[lacking], scenario), difference);
+        continue;
+      }
+      const DifferenceUncertainty found =
+          calc_difference_uncertainty(*reference, *other, find_shared(folders.front(), folders[i]));
+      add_interval(found.sd, found.coverage_factor, difference);
+    }
+  }
+}
+
+std::string join_names(const std::vector<std::string>& names) {
+  return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// What the intervals take to be common, for each of the others.
+void describe_shared(const std::vector<ResultFolder>& folders, Comparison& comparison) {
+  bool has_interval = false;
+  for (std::size_t i = 1; i < folders.size(); ++i) {
+    const SharedInputs shared = find_shared(folders.front(), folders[i]);
+    InputNames names;
+    for (const ComparedValue& value : comparison.values) {
+      const Json* reference = find_budget(folders.front(), value.name);
+      const Json* other = find_budget(folders[i], value.name);
+      if (reference == nullptr || other == nullptr) continue;
+      const InputNames own = name_inputs(*reference, *other, shared);
+      const auto add = [](const std::vector<std::string>& from, std::vector<std::string>& to) {
+        for (const std::string& name : from) {
+          if (std::find(to.begin(), to.end(), name) == to.end()) to.push_back(name);
+        }
+      };
+      add(own.common, names.common);
+      add(own.independent, names.independent);
+      has_interval = true;
+    }
+    if (names.common.empty() && names.independent.empty()) continue;
+    const std::string why = shared.is_same_run       ? "one run, in two copies"
+                            : shared.has_one_machine ? "the machine is the same"
+                                                     : "the machines differ";
+    comparison.method.push_back(fmt::format("{} and {}: {}. Taken to be common: {}. Independent: {}",
+                                            comparison.names.front(), comparison.names[i], why,
+                                            join_names(names.common), join_names(names.independent)));
+  }
+  if (!has_interval) {
+    comparison.method.push_back(
+        "no difference has an interval: both results need an uncertainty budget, from rollrig run --uncertainty");
+    return;
+  }
+  comparison.method.insert(comparison.method.begin(),
+                           "intervals of 95 % from the uncertainty budgets of both results (GUM 5.2.2): a common error "
+                           "cancels as far as both results depend on it alike, errors of each add up");
+}
+
+/// Whether a row is of the next phase, which has the name of this one.
+bool is_of_next(const OverlaidRun& run, std::size_t phase, std::size_t row) {
+  constexpr double kSlack_s = 1e-6;
+  return phase + 1 < run.phases.size() && run.phases[phase + 1].name == run.phases[phase].name &&
+         run.time_s[row] > run.phases[phase].end_s + kSlack_s;
+}
+
+OverlaidRun read_overlaid(const ResultFolder& folder) {
+  OverlaidRun run;
+  const CsvTable& table = folder.recording;
+  run.time_s = table.plain_numbers("time_s", {});
+  const std::vector<std::string> phases = table.text("phase");
+  for (const Json& phase : folder.result.value("phases", Json::array())) {
+    run.phases.push_back({phase["name"], phase["start_s"], phase["end_s"]});
+  }
+  std::size_t at = 0;
+  for (std::size_t row = 0; row < phases.size(); ++row) {
+    while (at < run.phases.size() && (run.phases[at].name != phases[row] || is_of_next(run, at, row))) ++at;
+    if (at == run.phases.size())
+      throw table.cell_error(row, "phase", "no phase of result.json", "its phases, in order");
+    run.phase.push_back(at);
+  }
+  for (const std::string& column : table.columns()) {
+    if (column == "time_s" || column == "phase") continue;
+    run.channels.emplace_back(column, table.plain_numbers(column, {}));
+  }
+  return run;
+}
+
+void add_waterfalls(const std::vector<ResultFolder>& folders, Comparison& comparison) {
+  const auto find_terms = [](const ResultFolder& folder) {
+    return folder.result["energy"].value("terms_J", Json::object());
+  };
+  for (std::size_t i = 1; i < folders.size(); ++i) {
+    const std::optional<EnergyWaterfall> waterfall =
+        make_waterfall(find_terms(folders.front()), find_terms(folders[i]), comparison.names[i]);
+    if (waterfall.has_value()) comparison.waterfalls.push_back(*waterfall);
+  }
+}
+
+/// The result that matters most: with an interval, else an RRc, else the one that differs most by its size.
+void add_message(Comparison& comparison) {
+  const ComparedValue* chosen = nullptr;
+  double most = -1.0;
+  for (const ComparedValue& value : comparison.values) {
+    const Difference& first = value.differences.front();
+    if (!first.value.has_value()) continue;
+    double weight = std::abs(first.percent.value_or(0.0)) * 1e-6;
+    if (value.name == "rrc_25degC_2m_N_per_kN") weight += 1e6;
+    if (first.sd.has_value()) weight += 1e3;
+    if (value.unit == "s" || weight <= most) continue;
+    most = weight;
+    chosen = &value;
+  }
+  if (chosen == nullptr) return;
+  for (std::size_t i = 1; i < comparison.names.size(); ++i) {
+    comparison.message += (i > 1 ? ". " : "") + describe_difference(comparison, *chosen, i);
+  }
+}
+
+Compared compare_folders(const std::vector<ResultFolder>& folders, const std::vector<std::string>& names) {
+  Compared compared;
+  Comparison& comparison = compared.comparison;
+  comparison.kind = ComparedKind::kResults;
+  comparison.names = names;
+  std::vector<const Json*> manifests;
+  std::vector<Json> results;
+  for (const ResultFolder& folder : folders) {
+    manifests.push_back(&folder.manifest);
+    results.push_back(folder.result["result"]);
+  }
+  comparison.inputs = find_different_inputs(manifests, {"format", "rollrig", "integrator"});
+  std::vector<Json> flat = scenarios::flatten_results(results);
+  add_budget_values(folders, flat);
+  for (const std::string& key : list_keys(flat)) {
+    comparison.values.push_back(make_value(key, flat));
+    comparison.values.back().doc = find_declared_doc(folders.front().result["scenario"], key);
+  }
+  add_intervals(folders, comparison);
+  describe_shared(folders, comparison);
+  add_waterfalls(folders, comparison);
+  add_message(comparison);
+  std::vector<OverlaidRun> runs;
+  for (const ResultFolder& folder : folders) runs.push_back(read_overlaid(folder));
+  compared.overlays.push_back(overlay_runs(runs, names, "", comparison.warnings));
+  return compared;
+}
+
+}  // namespace
+
+Compared compare_results(const std::vector<std::string>& paths, const std::vector<std::string>& names) {
+  std::vector<ResultFolder> folders;
+  for (const std::string& path : paths) folders.push_back(read_result_folder(path));
+  require_one_scenario(folders);
+  try {
+    return compare_folders(folders, names);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError({fmt::format("a result was changed or is damaged: {}", error.what()),
+                      folders.front().file_of("result.json"), 0, "", "", "files as rollrig run --out writes them", ""});
+  }
+}
+
+}  // namespace rollrig::comparison

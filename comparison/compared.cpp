@@ -1,0 +1,54 @@
+#include "comparison/compared.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace rollrig::comparison {
+
+Difference subtract(const std::optional<double>& value, const std::optional<double>& reference,
+                    const std::string& unit) {
+  Difference difference;
+  if (!value.has_value() || !reference.has_value()) return difference;
+  difference.value = *value - *reference;
+  if (unit != "degC" && *reference != 0.0) difference.percent = 100.0 * *difference.value / std::abs(*reference);
+  return difference;
+}
+
+void add_interval(double sd, double coverage_factor, Difference& difference) {
+  if (!difference.value.has_value()) return;
+  difference.sd = sd;
+  difference.low_95 = *difference.value - coverage_factor * sd;
+  difference.high_95 = *difference.value + coverage_factor * sd;
+  difference.why_no_interval.clear();
+}
+
+void add_reason(const std::string& why, Difference& difference) {
+  if (difference.value.has_value() && !difference.sd.has_value()) difference.why_no_interval = why;
+}
+
+std::string describe_difference(const Comparison& comparison, const ComparedValue& value, std::size_t other) {
+  const Difference& difference = value.differences[other - 1];
+  const std::string& name = comparison.names[other];
+  const std::string what = value.place.empty() ? value.label : fmt::format("{} ({})", value.label, value.place);
+  if (!difference.value.has_value()) return fmt::format("{}: {} has no value", what, name);
+  const std::string unit = value.unit.empty() ? "" : " " + value.unit;
+  const double size = *difference.value;
+  std::string text = fmt::format("{} of {} is ", what, name);
+  if (size == 0.0) {
+    text += fmt::format("the same as that of {}", comparison.names.front());
+  } else {
+    text += fmt::format("{:.3g}{} {} than that of {}", std::abs(size), unit, size < 0.0 ? "lower" : "higher",
+                        comparison.names.front());
+  }
+  std::string more;
+  if (difference.percent.has_value()) more += fmt::format("{:+.1f} %; ", *difference.percent);
+  if (difference.sd.has_value()) {
+    more += fmt::format("95 % interval {:.2g} to {:.2g}{}", *difference.low_95, *difference.high_95, unit);
+  } else {
+    more += "no interval";
+  }
+  return fmt::format("{} ({})", text, more);
+}
+
+}  // namespace rollrig::comparison

@@ -1,0 +1,54 @@
+#pragma once
+/// What a comparison consists of, before it becomes text, JSON and a page.
+
+#include <string>
+#include <vector>
+
+#include "include/rollrig/compare.h"
+
+namespace rollrig::comparison {
+
+/// A quantity over time, in the unit of its heading.
+struct OverlayLine {
+  std::vector<double> time_s;
+  std::vector<double> values;  // NaN: a gap
+};
+
+struct OverlayPanel {
+  std::string channel;             // "drum_torque_Nm"
+  std::vector<OverlayLine> lines;  // one for each of the compared
+};
+
+/// A phase on the time axis of an overlay.
+struct OverlayPhase {
+  std::string name;
+  double start_s = 0.0;
+  double end_s = 0.0;
+};
+
+/// Channels that all of the compared have, over a common time.
+struct Overlay {
+  std::string title;  // of a set, the run
+  std::vector<OverlayPhase> phases;
+  std::vector<OverlayPanel> panels;
+  double view_start_s = 0.0;  // before it nothing rolls
+};
+
+struct Compared {
+  Comparison comparison;  // all but its text, JSON and functions
+  std::vector<Overlay> overlays;
+};
+
+/// The difference of two values, without an interval.
+Difference subtract(const std::optional<double>& value, const std::optional<double>& reference,
+                    const std::string& unit);
+/// Adds the interval of 95 % about the difference.
+void add_interval(double sd, double coverage_factor, Difference& difference);
+/// Adds an interval, or why there is none, to a difference that has a value.
+void add_reason(const std::string& why, Difference& difference);
+
+/// A sentence on the difference of a value: "RRc of b is 0.620 N/kN lower than that of a (-7.1 %; 95 % interval -0.9 to
+/// -0.3)".
+std::string describe_difference(const Comparison& comparison, const ComparedValue& value, std::size_t other);
+
+}  // namespace rollrig::comparison

@@ -1,0 +1,269 @@
+#include "report/comparison_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "comparison/comparison_json.h"
+#include "report/blocks.h"
+#include "sim/core/text.h"
+#include "sim/core/units.h"
+
+namespace rollrig::report {
+namespace {
+
+using comparison::Overlay;
+using comparison::OverlayLine;
+using comparison::OverlayPanel;
+
+std::string show_value(const std::optional<double>& value, const char* digits = "{:.5g}") {
+  return value.has_value() ? fmt::format(fmt::runtime(digits), *value) : "-";
+}
+
+std::string show_interval(const Difference& difference) {
+  if (!difference.sd.has_value()) return "-";
+  return fmt::format("{:.3g} to {:.3g}", *difference.low_95, *difference.high_95);
+}
+
+Table make_input_table(const Comparison& comparison) {
+  Table table{"What differs in the inputs", {"input"}, {}};
+  table.columns.insert(table.columns.end(), comparison.names.begin(), comparison.names.end());
+  for (const DifferentInput& input : comparison.inputs) {
+    table.rows.push_back({input.name});
+    for (const std::string& value : input.values) table.rows.back().push_back(value.empty() ? "-" : value);
+  }
+  if (table.rows.empty()) table = {table.title, {}, {{"nothing", "all inputs are the same"}}};
+  return table;
+}
+
+/// Differences of one from the reference, of one place.
+Table make_difference_table(const Comparison& comparison, std::size_t other, const std::string& place) {
+  const std::string title =
+      fmt::format("{}{} less {}", place.empty() ? "" : place + ": ", comparison.names[other], comparison.names.front());
+  Table table{
+      title, {"name", comparison.names.front(), comparison.names[other], "difference", "%", "95 % interval"}, {}};
+  for (const ComparedValue& value : comparison.values) {
+    if (value.place != place) continue;
+    const Difference& difference = value.differences[other - 1];
+    table.rows.push_back({value.name, show_value(value.values.front()), show_value(value.values[other]),
+                          show_value(difference.value, "{:+.4g}"), show_value(difference.percent, "{:+.2f}"),
+                          show_interval(difference)});
+  }
+  return table;
+}
+
+std::vector<std::string> list_places(const Comparison& comparison) {
+  std::vector<std::string> places;
+  for (const ComparedValue& value : comparison.values) {
+    if (std::find(places.begin(), places.end(), value.place) == places.end()) places.push_back(value.place);
+  }
+  return places;
+}
+
+std::vector<Table> make_difference_tables(const Comparison& comparison) {
+  std::vector<Table> tables;
+  for (std::size_t other = 1; other < comparison.names.size(); ++other) {
+    for (const std::string& place : list_places(comparison)) {
+      tables.push_back(make_difference_table(comparison, other, place));
+    }
+  }
+  return tables;
+}
+
+Table make_waterfall_table(const Comparison& comparison, const EnergyWaterfall& waterfall) {
+  const auto show_kJ = [](double energy_J, const char* digits) {
+    return fmt::format(fmt::runtime(digits), energy_J * 1e-3);
+  };
+  Table table{fmt::format("Energy in kJ: {} of {} to that of {}", plain_name(waterfall.term), comparison.names.front(),
+                          waterfall.compared),
+              {"term", "kJ"},
+              {{comparison.names.front(), show_kJ(waterfall.start_J, "{:.3f}")}}};
+  for (const EnergyStep& step : waterfall.steps) {
+    table.rows.push_back({plain_name(step.name), show_kJ(step.energy_J, "{:+.3f}")});
+  }
+  table.rows.push_back({waterfall.compared, show_kJ(waterfall.end_J, "{:.3f}")});
+  return table;
+}
+
+std::string explain_missing(const EnergyWaterfall& waterfall) {
+  return waterfall.missing.empty() ? ""
+                                   : fmt::format(" Terms that one of the two does not have count as 0: {}.",
+                                                 fmt::join(waterfall.missing, ", "));
+}
+
+Block make_waterfall_block(const Comparison& comparison, const EnergyWaterfall& waterfall) {
+  const std::string term = plain_name(waterfall.term);
+  Json steps = Json::array();
+  for (const EnergyStep& step : waterfall.steps) {
+    steps.push_back({{"name", plain_name(step.name)}, {"value", step.energy_J}});
+  }
+  return {{"type", "waterfall"},
+          {"unit", "J"},
+          {"start", {{"name", fmt::format("{}, {}", term, comparison.names.front())}, {"value", waterfall.start_J}}},
+          {"steps", steps},
+          {"end", {{"name", fmt::format("{}, {}", term, waterfall.compared)}, {"value", waterfall.end_J}}},
+          {"caption",
+           fmt::format("From the energy of the {} of {} to that of {}: how much more goes into each term of the energy "
+                       "audit.{}",
+                       term, comparison.names.front(), waterfall.compared, explain_missing(waterfall))}};
+}
+
+/// Values whose differences have a bar: those with an interval first, then those that differ most.
+std::vector<const ComparedValue*> choose_bars(const Comparison& comparison) {
+  constexpr std::size_t kMost = 10;  // as many have room
+  std::vector<const ComparedValue*> chosen;
+  for (const ComparedValue& value : comparison.values) {
+    const bool is_number_of_list = value.place.empty() && value.name.find('.') != std::string::npos;
+    const bool is_of_tire = comparison.kind == ComparedKind::kTires && value.place.empty();
+    const bool has_percent = value.differences.front().percent.has_value();
+    if (!has_percent || value.unit == "s" || (is_number_of_list && !is_of_tire)) continue;
+    if (*value.differences.front().percent != 0.0) chosen.push_back(&value);
+  }
+  const auto weigh = [](const ComparedValue* value) {
+    const Difference& first = value->differences.front();
+    return std::pair(first.sd.has_value() ? 1 : 0, std::abs(*first.percent));
+  };
+  std::stable_sort(chosen.begin(), chosen.end(),
+                   [&](const ComparedValue* a, const ComparedValue* b) { return weigh(a) > weigh(b); });
+  chosen.resize(std::min(chosen.size(), kMost));
+  return chosen;
+}
+
+Block make_difference_bars(const Comparison& comparison, const std::vector<const ComparedValue*>& chosen) {
+  Json categories = Json::array();
+  for (const ComparedValue* value : chosen) {
+    categories.push_back(capitalized(value->label) + (value->place.empty() ? "" : ", " + value->place));
+  }
+  Json series = Json::array();
+  for (std::size_t other = 1; other < comparison.names.size(); ++other) {
+    Json values = Json::array(), low = Json::array(), high = Json::array();
+    for (const ComparedValue* value : chosen) {
+      const Difference& difference = value->differences[other - 1];
+      const bool has_interval = difference.sd.has_value() && difference.percent.has_value();
+      const double per_unit = has_interval ? 100.0 / std::abs(*value->values.front()) : 0.0;
+      values.push_back(difference.percent.has_value() ? rounded(*difference.percent) : Json());
+      low.push_back(has_interval ? rounded(per_unit * *difference.low_95) : Json());
+      high.push_back(has_interval ? rounded(per_unit * *difference.high_95) : Json());
+    }
+    series.push_back({{"name", comparison.names[other]}, {"values", values}, {"low", low}, {"high", high}});
+  }
+  return make_bars({fmt::format("Difference from {}", comparison.names.front()), "%"}, categories, series,
+                   "Whiskers are intervals of 95 %; where there is none, none is known.");
+}
+
+/// So many points of a line that a page with all of them stays small.
+std::size_t find_most_points(const std::vector<Overlay>& overlays) {
+  constexpr std::size_t kAll = 60000, kFewest = 200, kMost = 2000;
+  std::size_t lines = 0;
+  for (const Overlay& overlay : overlays) {
+    for (const OverlayPanel& panel : overlay.panels) lines += panel.lines.size();
+  }
+  return std::clamp(kAll / std::max<std::size_t>(lines, 1), kFewest, kMost);
+}
+
+Json make_overlay_series(const std::string& name, const OverlayLine& line, std::size_t most) {
+  constexpr double kShownShare = 1e-6;  // less than the digits that are written
+  double size = 0.0;
+  for (const double value : line.values) size = std::isfinite(value) ? std::max(size, std::abs(value)) : size;
+  Json t = Json::array(), y = Json::array();
+  for (const std::size_t row : thin(line.time_s, line.values, most, kShownShare * size)) {
+    t.push_back(std::round(1e3 * line.time_s[row]) / 1e3);
+    y.push_back(rounded(line.values[row]));
+  }
+  return {{"name", name}, {"t", t}, {"y", y}};
+}
+
+Block make_overlay_block(const Comparison& comparison, const Overlay& overlay, std::size_t most) {
+  Json phases = Json::array();
+  for (const comparison::OverlayPhase& phase : overlay.phases) {
+    phases.push_back({{"name", phase.name}, {"start_s", rounded(phase.start_s)}, {"end_s", rounded(phase.end_s)}});
+  }
+  Json panels = Json::array();
+  double end_s = overlay.view_start_s;
+  for (const OverlayPanel& panel : overlay.panels) {
+    Json series = Json::array();
+    for (std::size_t i = 0; i < panel.lines.size(); ++i) {
+      series.push_back(make_overlay_series(comparison.names[i], panel.lines[i], most));
+      if (!panel.lines[i].time_s.empty()) end_s = std::max(end_s, panel.lines[i].time_s.back());
+    }
+    panels.push_back(
+        {{"label", capitalized(plain_name(panel.channel))}, {"unit", shown_unit(panel.channel)}, {"series", series}});
+  }
+  Block block = {{"type", "times"},
+                 {"unlinked", true},
+                 {"phases", phases},
+                 {"view", {rounded(overlay.view_start_s), rounded(end_s)}},
+                 {"panels", panels},
+                 {"caption",
+                  "Each phase begins at one time for all. The bar below the chart, or "
+                  "Ctrl and the mouse wheel, zoom."}};
+  if (!overlay.title.empty()) block["title"] = overlay.title;
+  return block;
+}
+
+Block make_list_block(const std::vector<std::string>& items) { return {{"type", "text"}, {"items", items}}; }
+
+}  // namespace
+
+std::vector<Table> make_comparison_tables(const Comparison& comparison) {
+  std::vector<Table> tables{make_input_table(comparison)};
+  for (Table& table : make_difference_tables(comparison)) tables.push_back(std::move(table));
+  for (const EnergyWaterfall& waterfall : comparison.waterfalls) {
+    tables.push_back(make_waterfall_table(comparison, waterfall));
+  }
+  return tables;
+}
+
+std::vector<std::string> list_interval_reasons(const Comparison& comparison) {
+  std::vector<std::pair<std::string, std::size_t>> counts;
+  for (const ComparedValue& value : comparison.values) {
+    for (const Difference& difference : value.differences) {
+      if (difference.why_no_interval.empty()) continue;
+      const auto known = std::find_if(counts.begin(), counts.end(),
+                                      [&](const auto& count) { return count.first == difference.why_no_interval; });
+      if (known == counts.end()) {
+        counts.emplace_back(difference.why_no_interval, 1);
+      } else {
+        ++known->second;
+      }
+    }
+  }
+  std::vector<std::string> reasons;
+  for (const auto& [why, count] : counts) {
+    reasons.push_back(fmt::format("{} without an interval: {}", format_count(count, "difference"), why));
+  }
+  return reasons;
+}
+
+Page make_comparison_page(const comparison::Compared& compared) {
+  const Comparison& comparison = compared.comparison;
+  Page page{"compare", fmt::format("Comparison of {}", comparison::name_of(comparison.kind)),
+            fmt::format("{}. The first is the reference.", fmt::join(comparison.names, ", "))};
+  Section top{"Main difference"};
+  if (!comparison.message.empty()) top.blocks.push_back(make_lead("good", comparison.message + "."));
+  if (!comparison.warnings.empty()) top.blocks.push_back(make_warnings(comparison.warnings));
+  const std::vector<const ComparedValue*> bars = choose_bars(comparison);
+  if (!bars.empty()) top.blocks.push_back(make_difference_bars(comparison, bars));
+  page.add(std::move(top));
+  page.add({"Inputs", "", {make_table(make_input_table(comparison))}});
+  Section energy{"Energy"};
+  for (const EnergyWaterfall& waterfall : comparison.waterfalls) {
+    energy.blocks.push_back(make_waterfall_block(comparison, waterfall));
+  }
+  page.add(std::move(energy));
+  Section times{"Over time"};
+  const std::size_t most = find_most_points(compared.overlays);
+  for (const Overlay& overlay : compared.overlays) {
+    times.blocks.push_back(make_overlay_block(comparison, overlay, most));
+  }
+  page.add(std::move(times));
+  page.add(make_section("All differences", make_difference_tables(comparison), {}));
+  std::vector<std::string> method = comparison.method;
+  for (std::string& reason : list_interval_reasons(comparison)) method.push_back(std::move(reason));
+  page.add({"How intervals are found", "", {make_list_block(method)}});
+  return page;
+}
+
+}  // namespace rollrig::report
