@@ -39,9 +39,9 @@ void add_examples(const CLI::App& app) {
        "  rollrig run iso_28580 --tire a50\n"
        "  rollrig run warm_up --tire a60 --set speed_km_h=120 --out warm\n"},
       {"sweep", "  rollrig sweep iso_28580 --tire a50 --vary pressure_kPa=210:310:20\n"},
-      {"serve",
-       "  rollrig serve\n"
-       "  rollrig serve --port 8765 --keep pages --tire mine.toml\n"},
+      {"compare",
+       "  rollrig compare a40 a50\n"
+       "  rollrig compare warm hot --html difference.html\n"},
       {"campaign",
        "  rollrig campaign new sums iso_28580 --tire a50 --draw-sd tire \\\n"
        "    --points 1000 --fidelity quasi_static\n"

@@ -9,21 +9,21 @@ namespace rollrig::comparison {
 namespace {
 
 const Json* find_line(const Json& budget, const Json& like) {
-  for (const Json& line : budget["contributions"]) {
-    if (line["name"] == like["name"] && line["key"] == like["key"]) return &line;
+  for (const Json& line : budget.at("contributions")) {
+    if (line.at("name") == like.at("name") && line.at("key") == like.at("key")) return &line;
   }
   return nullptr;
 }
 
 /// c u with its sign.
 double find_signed(const Json& line) {
-  const double size = line["contribution"].get<double>();
-  const Json& sensitivity = line["sensitivity"];
+  const double size = line.at("contribution").get<double>();
+  const Json& sensitivity = line.at("sensitivity");
   return sensitivity.is_number() && sensitivity.get<double>() < 0.0 ? -size : size;
 }
 
 double find_freedom(const Json& line) {
-  const Json& found = line["degrees_of_freedom"];
+  const Json& found = line.at("degrees_of_freedom");
   return found.is_number() ? found.get<double>() : std::numeric_limits<double>::infinity();
 }
 
@@ -43,17 +43,17 @@ struct VarianceSum {
 
 Relation SharedInputs::find(const Json& contribution) const {
   if (is_same_run) return Relation::kCommon;
-  const std::string name = contribution["name"];
-  const bool is_drawn = contribution["type"] == "A" || name.rfind("noise", 0) == 0;
+  const std::string name = contribution.at("name");
+  const bool is_drawn = contribution.at("type") == "A" || name.rfind("noise", 0) == 0;
   if (is_drawn) return Relation::kIndependent;
-  const bool is_of_tire = contribution["key"] == "tire";
+  const bool is_of_tire = contribution.at("key") == "tire";
   return (is_of_tire ? has_one_tire : has_one_machine) ? Relation::kCommon : Relation::kIndependent;
 }
 
 DifferenceUncertainty calc_difference_uncertainty(const Json& reference, const Json& other,
                                                   const SharedInputs& shared) {
   VarianceSum sum;
-  for (const Json& line : reference["contributions"]) {
+  for (const Json& line : reference.at("contributions")) {
     const Json* beside = find_line(other, line);
     if (beside != nullptr && shared.find(line) == Relation::kCommon) {
       sum.add(find_signed(*beside) - find_signed(line), find_freedom(line));
@@ -62,7 +62,7 @@ DifferenceUncertainty calc_difference_uncertainty(const Json& reference, const J
     sum.add(find_signed(line), find_freedom(line));
     if (beside != nullptr) sum.add(find_signed(*beside), find_freedom(*beside));
   }
-  for (const Json& line : other["contributions"]) {
+  for (const Json& line : other.at("contributions")) {
     if (find_line(reference, line) == nullptr) sum.add(find_signed(line), find_freedom(line));
   }
   const double freedom =
@@ -72,14 +72,14 @@ DifferenceUncertainty calc_difference_uncertainty(const Json& reference, const J
 
 InputNames name_inputs(const Json& reference, const Json& other, const SharedInputs& shared) {
   InputNames names;
-  for (const Json& line : reference["contributions"]) {
-    if (!(line["contribution"].get<double>() > 0.0)) continue;
+  for (const Json& line : reference.at("contributions")) {
+    if (!(line.at("contribution").get<double>() > 0.0)) continue;
     const bool is_common = find_line(other, line) != nullptr && shared.find(line) == Relation::kCommon;
-    (is_common ? names.common : names.independent).push_back(line["name"]);
+    (is_common ? names.common : names.independent).push_back(line.at("name"));
   }
-  for (const Json& line : other["contributions"]) {
-    if (find_line(reference, line) == nullptr && line["contribution"].get<double>() > 0.0) {
-      names.independent.push_back(line["name"]);
+  for (const Json& line : other.at("contributions")) {
+    if (find_line(reference, line) == nullptr && line.at("contribution").get<double>() > 0.0) {
+      names.independent.push_back(line.at("name"));
     }
   }
   return names;

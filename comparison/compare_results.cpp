@@ -33,8 +33,8 @@ void require_one_scenario(const std::vector<ResultFolder>& folders) {
 const Json* find_budget(const ResultFolder& folder, const std::string& key) {
   const auto uncertainty = folder.result.find("uncertainty");
   if (uncertainty == folder.result.end()) return nullptr;
-  for (const Json& budget : (*uncertainty)["budgets"]) {
-    if (budget["key"] == key) return &budget;
+  for (const Json& budget : uncertainty->at("budgets")) {
+    if (budget.at("key") == key) return &budget;
   }
   return nullptr;
 }
@@ -46,16 +46,6 @@ std::string find_declared_doc(const std::string& scenario, const std::string& ke
     if (info.key == scenarios::find_declared_key(key)) return info.doc;
   }
   return "";
-}
-
-/// "sections, city 1: rr energy" of "sections.city_1.rr_energy_Wh".
-std::string label_result(const std::string& key) {
-  const std::size_t last = key.rfind('.');
-  if (last == std::string::npos) return plain_name(key);
-  std::string record = key.substr(0, last);
-  std::replace(record.begin(), record.end(), '.', ' ');
-  std::replace(record.begin(), record.end(), '_', ' ');
-  return fmt::format("{}: {}", record, plain_name(key.substr(last + 1)));
 }
 
 std::optional<double> find_number(const Json& flat, const std::string& key) {
@@ -98,7 +88,7 @@ SharedInputs find_shared(const ResultFolder& reference, const ResultFolder& othe
     return vehicle;
   };
   const bool is_one_vehicle = drop_tires(a.value("vehicle", Json())) == drop_tires(b.value("vehicle", Json()));
-  return {a == b && reference.result["result"] == other.result["result"],
+  return {a == b && reference.result.at("result") == other.result.at("result"),
           is_same("rig") && is_same("sensors") && is_one_vehicle, is_same("tire")};
 }
 
@@ -107,8 +97,8 @@ void add_budget_values(const std::vector<ResultFolder>& folders, std::vector<Jso
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const Json budgets = folders[i].result.value("uncertainty", Json::object()).value("budgets", Json::array());
     for (const Json& budget : budgets) {
-      const std::string key = budget["key"];
-      if (!flat[i].contains(key)) flat[i][key] = budget["value"];
+      const std::string key = budget.at("key");
+      if (!flat[i].contains(key)) flat[i][key] = budget.at("value");
     }
   }
 }
@@ -122,10 +112,10 @@ std::string explain_no_interval(const ResultFolder& folder, const std::string& n
 }
 
 void add_intervals(const std::vector<ResultFolder>& folders, Comparison& comparison) {
-  const std::string scenario = folders.front().result["scenario"];
+  const std::string scenario = folders.front().result.at("scenario");
   for (ComparedValue& value : comparison.values) {
     const Json* reference = find_budget(folders.front(), value.name);
-    if (reference != nullptr) value.label = (*reference)["name"].get<std::string>();
+    if (reference != nullptr) value.label = reference->at("name").get<std::string>();
     for (std::size_t i = 1; i < folders.size(); ++i) {
       Difference& difference = value.differences[i - 1];
       const Json* other = find_budget(folders[i], value.name);
@@ -196,7 +186,7 @@ OverlaidRun read_overlaid(const ResultFolder& folder) {
   run.time_s = table.plain_numbers("time_s", {});
   const std::vector<std::string> phases = table.text("phase");
   for (const Json& phase : folder.result.value("phases", Json::array())) {
-    run.phases.push_back({phase["name"], phase["start_s"], phase["end_s"]});
+    run.phases.push_back({phase.at("name"), phase.at("start_s"), phase.at("end_s")});
   }
   std::size_t at = 0;
   for (std::size_t row = 0; row < phases.size(); ++row) {
@@ -214,7 +204,7 @@ OverlaidRun read_overlaid(const ResultFolder& folder) {
 
 void add_waterfalls(const std::vector<ResultFolder>& folders, Comparison& comparison) {
   const auto find_terms = [](const ResultFolder& folder) {
-    return folder.result["energy"].value("terms_J", Json::object());
+    return folder.result.at("energy").value("terms_J", Json::object());
   };
   for (std::size_t i = 1; i < folders.size(); ++i) {
     const std::optional<EnergyWaterfall> waterfall =
@@ -252,14 +242,14 @@ Compared compare_folders(const std::vector<ResultFolder>& folders, const std::ve
   std::vector<Json> results;
   for (const ResultFolder& folder : folders) {
     manifests.push_back(&folder.manifest);
-    results.push_back(folder.result["result"]);
+    results.push_back(folder.result.at("result"));
   }
   comparison.inputs = find_different_inputs(manifests, {"format", "rollrig", "integrator"});
   std::vector<Json> flat = scenarios::flatten_results(results);
   add_budget_values(folders, flat);
   for (const std::string& key : list_keys(flat)) {
     comparison.values.push_back(make_value(key, flat));
-    comparison.values.back().doc = find_declared_doc(folders.front().result["scenario"], key);
+    comparison.values.back().doc = find_declared_doc(folders.front().result.at("scenario"), key);
   }
   add_intervals(folders, comparison);
   describe_shared(folders, comparison);
@@ -276,8 +266,8 @@ Compared compare_folders(const std::vector<ResultFolder>& folders, const std::ve
 Compared compare_results(const std::vector<std::string>& paths, const std::vector<std::string>& names) {
   std::vector<ResultFolder> folders;
   for (const std::string& path : paths) folders.push_back(read_result_folder(path));
-  require_one_scenario(folders);
   try {
+    require_one_scenario(folders);
     return compare_folders(folders, names);
   } catch (const nlohmann::json::exception& error) {
     throw InputError({fmt::format("a result was changed or is damaged: {}", error.what()),

@@ -167,8 +167,7 @@ void add_results(const std::vector<TireFile>& tires, const VirtualTest& test, co
     ComparedValue value;
     value.name = key;
     value.place = test.scenario;
-    value.label = plain_name(key.substr(key.rfind('.') + 1));
-    if (value.label.rfind("rrc", 0) == 0) value.label.replace(0, 3, "RRc");
+    value.label = label_result(key);
     value.unit = unit_of_key(key.substr(key.rfind('.') + 1)).symbol;
     value.doc = find_result_doc(*test.runs.front().scenario, key);
     for (const TireTest& one : done) value.values.push_back(find_result(one.results.front(), key));

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "sim/core/units.h"
 
 namespace rollrig::comparison {
 
@@ -11,8 +14,21 @@ Difference subtract(const std::optional<double>& value, const std::optional<doub
   Difference difference;
   if (!value.has_value() || !reference.has_value()) return difference;
   difference.value = *value - *reference;
-  if (unit != "degC" && *reference != 0.0) difference.percent = 100.0 * *difference.value / std::abs(*reference);
+  if (unit != "degC" && unit != "%" && *reference != 0.0)
+    difference.percent = 100.0 * *difference.value / std::abs(*reference);
   return difference;
+}
+
+std::string label_result(const std::string& key) {
+  const std::size_t last = key.rfind('.');
+  std::string own = plain_name(last == std::string::npos ? key : key.substr(last + 1));
+  if (own.rfind("rrc", 0) == 0) own.replace(0, 3, "RRc");
+  if (own == "RRc 25degC 2m") own = "RRc at 25 degC, 2 m drum";
+  if (last == std::string::npos) return own;
+  std::string record = key.substr(0, last);
+  std::replace(record.begin(), record.end(), '.', ' ');
+  std::replace(record.begin(), record.end(), '_', ' ');
+  return fmt::format("{}: {}", record, own);
 }
 
 void add_interval(double sd, double coverage_factor, Difference& difference) {
@@ -44,7 +60,7 @@ std::string describe_difference(const Comparison& comparison, const ComparedValu
   std::string more;
   if (difference.percent.has_value()) more += fmt::format("{:+.1f} %; ", *difference.percent);
   if (difference.sd.has_value()) {
-    more += fmt::format("95 % interval {:.2g} to {:.2g}{}", *difference.low_95, *difference.high_95, unit);
+    more += fmt::format("95 % interval {:.3g} to {:.3g}{}", *difference.low_95, *difference.high_95, unit);
   } else {
     more += "no interval";
   }

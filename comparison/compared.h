@@ -42,6 +42,9 @@ struct Compared {
 /// The difference of two values, without an interval.
 Difference subtract(const std::optional<double>& value, const std::optional<double>& reference,
                     const std::string& unit);
+/// A result in words: "RRc at 25 degC, 2 m drum", "sections city 1: rr energy" of "sections.city_1.rr_energy_Wh".
+std::string label_result(const std::string& key);
+
 /// Adds the interval of 95 % about the difference.
 void add_interval(double sd, double coverage_factor, Difference& difference);
 /// Adds an interval, or why there is none, to a difference that has a value.

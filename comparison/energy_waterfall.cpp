@@ -31,7 +31,8 @@ std::vector<std::string> list_terms(const Json& reference_J, const Json& other_J
 std::optional<EnergyWaterfall> make_waterfall(const Json& reference_terms_J, const Json& other_terms_J,
                                               const std::string& compared) {
   const std::vector<std::string> names = list_terms(reference_terms_J, other_terms_J);
-  EnergyWaterfall waterfall{compared};
+  EnergyWaterfall waterfall;
+  waterfall.compared = compared;
   for (const std::string& name : names) {
     const double in_J = find_term_J(reference_terms_J, name);
     if (in_J <= waterfall.start_J) continue;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace rollrig::comparison {
 namespace {
@@ -18,14 +19,14 @@ std::string show_input(const Json& value) {
   return value.dump();
 }
 
-/// Dotted keys with their values. An empty object or list is a value of its own.
-void flatten(const Json& document, const std::string& prefix, std::vector<std::pair<std::string, std::string>>& flat) {
+/// Dotted keys with their values; empty objects and lists have none.
+void flatten(const Json& document, const std::string& prefix, std::vector<std::pair<std::string, Json>>& flat) {
   const auto add = [&](const std::string& key, const Json& value) {
     const std::string name = prefix.empty() ? key : prefix + "." + key;
     if (value.is_structured() && !value.empty()) {
       flatten(value, name, flat);
     } else if (!value.is_structured()) {
-      flat.emplace_back(name, show_input(value));
+      flat.emplace_back(name, value);
     }
   };
   if (document.is_array()) {
@@ -37,28 +38,51 @@ void flatten(const Json& document, const std::string& prefix, std::vector<std::p
   }
 }
 
+/// An input with its value in each of the documents that have it.
+struct FoundInput {
+  std::string name;
+  std::vector<std::optional<Json>> values;
+};
+
+template <class Value>
+bool are_all_equal(const std::vector<Value>& values) {
+  return std::all_of(values.begin(), values.end(), [&values](const Value& value) { return value == values.front(); });
+}
+
+/// In six digits where these tell the values apart, else in all.
+DifferentInput show_found(const FoundInput& found) {
+  DifferentInput input{found.name, {}};
+  for (const std::optional<Json>& value : found.values) {
+    input.values.push_back(value.has_value() ? show_input(*value) : "");
+  }
+  if (!are_all_equal(input.values)) return input;
+  for (std::size_t i = 0; i < found.values.size(); ++i) {
+    if (found.values[i].has_value()) input.values[i] = found.values[i]->dump();
+  }
+  return input;
+}
+
 }  // namespace
 
 std::vector<DifferentInput> find_different_inputs(const std::vector<const Json*>& documents,
                                                   const std::vector<std::string>& left_out) {
-  std::vector<DifferentInput> inputs;
+  std::vector<FoundInput> found;
   std::map<std::string, std::size_t> places;
   for (std::size_t i = 0; i < documents.size(); ++i) {
     Json document = *documents[i];
     for (const std::string& key : left_out) document.erase(key);
-    std::vector<std::pair<std::string, std::string>> flat;
+    std::vector<std::pair<std::string, Json>> flat;
     flatten(document, "", flat);
-    for (const auto& [name, value] : flat) {
-      const auto [place, is_new] = places.emplace(name, inputs.size());
-      if (is_new) inputs.push_back({name, std::vector<std::string>(documents.size())});
-      inputs[place->second].values[i] = value;
+    for (auto& [name, value] : flat) {
+      const auto [place, is_new] = places.emplace(name, found.size());
+      if (is_new) found.push_back({name, std::vector<std::optional<Json>>(documents.size())});
+      found[place->second].values[i] = std::move(value);
     }
   }
-  const auto is_same = [](const DifferentInput& input) {
-    return std::all_of(input.values.begin(), input.values.end(),
-                       [&input](const std::string& value) { return value == input.values.front(); });
-  };
-  inputs.erase(std::remove_if(inputs.begin(), inputs.end(), is_same), inputs.end());
+  std::vector<DifferentInput> inputs;
+  for (const FoundInput& one : found) {
+    if (!are_all_equal(one.values)) inputs.push_back(show_found(one));
+  }
   return inputs;
 }
 

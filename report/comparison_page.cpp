@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "comparison/comparison_json.h"
 #include "report/blocks.h"
@@ -22,69 +21,9 @@ std::string show_value(const std::optional<double>& value, const char* digits = 
   return value.has_value() ? fmt::format(fmt::runtime(digits), *value) : "-";
 }
 
-std::string show_interval(const Difference& difference) {
+std::string show_limits(const Difference& difference) {
   if (!difference.sd.has_value()) return "-";
   return fmt::format("{:.3g} to {:.3g}", *difference.low_95, *difference.high_95);
-}
-
-Table make_input_table(const Comparison& comparison) {
-  Table table{"What differs in the inputs", {"input"}, {}};
-  table.columns.insert(table.columns.end(), comparison.names.begin(), comparison.names.end());
-  for (const DifferentInput& input : comparison.inputs) {
-    table.rows.push_back({input.name});
-    for (const std::string& value : input.values) table.rows.back().push_back(value.empty() ? "-" : value);
-  }
-  if (table.rows.empty()) table = {table.title, {}, {{"nothing", "all inputs are the same"}}};
-  return table;
-}
-
-/// Differences of one from the reference, of one place.
-Table make_difference_table(const Comparison& comparison, std::size_t other, const std::string& place) {
-  const std::string title =
-      fmt::format("{}{} less {}", place.empty() ? "" : place + ": ", comparison.names[other], comparison.names.front());
-  Table table{
-      title, {"name", comparison.names.front(), comparison.names[other], "difference", "%", "95 % interval"}, {}};
-  for (const ComparedValue& value : comparison.values) {
-    if (value.place != place) continue;
-    const Difference& difference = value.differences[other - 1];
-    table.rows.push_back({value.name, show_value(value.values.front()), show_value(value.values[other]),
-                          show_value(difference.value, "{:+.4g}"), show_value(difference.percent, "{:+.2f}"),
-                          show_interval(difference)});
-  }
-  return table;
-}
-
-std::vector<std::string> list_places(const Comparison& comparison) {
-  std::vector<std::string> places;
-  for (const ComparedValue& value : comparison.values) {
-    if (std::find(places.begin(), places.end(), value.place) == places.end()) places.push_back(value.place);
-  }
-  return places;
-}
-
-std::vector<Table> make_difference_tables(const Comparison& comparison) {
-  std::vector<Table> tables;
-  for (std::size_t other = 1; other < comparison.names.size(); ++other) {
-    for (const std::string& place : list_places(comparison)) {
-      tables.push_back(make_difference_table(comparison, other, place));
-    }
-  }
-  return tables;
-}
-
-Table make_waterfall_table(const Comparison& comparison, const EnergyWaterfall& waterfall) {
-  const auto show_kJ = [](double energy_J, const char* digits) {
-    return fmt::format(fmt::runtime(digits), energy_J * 1e-3);
-  };
-  Table table{fmt::format("Energy in kJ: {} of {} to that of {}", plain_name(waterfall.term), comparison.names.front(),
-                          waterfall.compared),
-              {"term", "kJ"},
-              {{comparison.names.front(), show_kJ(waterfall.start_J, "{:.3f}")}}};
-  for (const EnergyStep& step : waterfall.steps) {
-    table.rows.push_back({plain_name(step.name), show_kJ(step.energy_J, "{:+.3f}")});
-  }
-  table.rows.push_back({waterfall.compared, show_kJ(waterfall.end_J, "{:.3f}")});
-  return table;
 }
 
 std::string explain_missing(const EnergyWaterfall& waterfall) {
@@ -95,9 +34,32 @@ std::string explain_missing(const EnergyWaterfall& waterfall) {
 
 Block make_waterfall_block(const Comparison& comparison, const EnergyWaterfall& waterfall) {
   const std::string term = plain_name(waterfall.term);
-  Json steps = Json::array();
-  for (const EnergyStep& step : waterfall.steps) {
-    steps.push_back({{"name", plain_name(step.name)}, {"value", step.energy_J}});
+  const auto make_end = [&term](const std::string& name, double energy_J) {
+    return WaterfallBar{fmt::format("{}, {}", term, name), kPerJ * energy_J};
+  };
+  std::vector<WaterfallBar> steps;
+  for (const EnergyStep& step : list_shown_steps(waterfall)) steps.push_back({step.name, kPerJ * step.energy_J});
+  return make_waterfall({"Energy", "kJ"}, make_end(comparison.names.front(), waterfall.start_J), steps,
+                        make_end(waterfall.compared, waterfall.end_J),
+                        fmt::format("Energy of the {} of {}, how much more goes into each term of the energy audit of "
+                                    "{}, and its energy.{}",
+                                    term, comparison.names.front(), waterfall.compared, explain_missing(waterfall)));
+}
+
+/// The main value of each, with its difference from that of the reference.
+Block make_main_tiles(const Comparison& comparison, const ComparedValue& value) {
+  std::vector<Tile> tiles;
+  for (std::size_t i = 0; i < comparison.names.size(); ++i) {
+    Tile tile{comparison.names[i], show_value(value.values[i]), value.unit,
+              capitalized(value.label) + (i == 0 ? ", the reference" : "")};
+    if (i > 0) {
+      const Difference& difference = value.differences[i - 1];
+      tile.note =
+          fmt::format("{} {} to {}", show_value(difference.value, "{:+.3g}"), value.unit, comparison.names.front());
+      if (difference.percent.has_value()) tile.note += fmt::format(", {:+.1f} %", *difference.percent);
+      if (difference.sd.has_value()) tile.note += fmt::format("; 95 % interval {}", show_limits(difference));
+    }
+    tiles.push_back(std::move(tile));
   }
   return {{"type", "waterfall"},
           {"unit", "J"},
@@ -207,36 +169,6 @@ Block make_list_block(const std::vector<std::string>& items) { return {{"type", 
 
 }  // namespace
 
-std::vector<Table> make_comparison_tables(const Comparison& comparison) {
-  std::vector<Table> tables{make_input_table(comparison)};
-  for (Table& table : make_difference_tables(comparison)) tables.push_back(std::move(table));
-  for (const EnergyWaterfall& waterfall : comparison.waterfalls) {
-    tables.push_back(make_waterfall_table(comparison, waterfall));
-  }
-  return tables;
-}
-
-std::vector<std::string> list_interval_reasons(const Comparison& comparison) {
-  std::vector<std::pair<std::string, std::size_t>> counts;
-  for (const ComparedValue& value : comparison.values) {
-    for (const Difference& difference : value.differences) {
-      if (difference.why_no_interval.empty()) continue;
-      const auto known = std::find_if(counts.begin(), counts.end(),
-                                      [&](const auto& count) { return count.first == difference.why_no_interval; });
-      if (known == counts.end()) {
-        counts.emplace_back(difference.why_no_interval, 1);
-      } else {
-        ++known->second;
-      }
-    }
-  }
-  std::vector<std::string> reasons;
-  for (const auto& [why, count] : counts) {
-    reasons.push_back(fmt::format("{} without an interval: {}", format_count(count, "difference"), why));
-  }
-  return reasons;
-}
-
 Page make_comparison_page(const comparison::Compared& compared) {
   const Comparison& comparison = compared.comparison;
   Page page{"compare", fmt::format("Comparison of {}", comparison::name_of(comparison.kind)),
@@ -247,7 +179,7 @@ Page make_comparison_page(const comparison::Compared& compared) {
   const std::vector<const ComparedValue*> bars = choose_bars(comparison);
   if (!bars.empty()) top.blocks.push_back(make_difference_bars(comparison, bars));
   page.add(std::move(top));
-  page.add({"Inputs", "", {make_table(make_input_table(comparison))}});
+  page.add({"Inputs", "", {make_table(make_comparison_input_table(comparison))}});
   Section energy{"Energy"};
   for (const EnergyWaterfall& waterfall : comparison.waterfalls) {
     energy.blocks.push_back(make_waterfall_block(comparison, waterfall));
@@ -259,7 +191,7 @@ Page make_comparison_page(const comparison::Compared& compared) {
     times.blocks.push_back(make_overlay_block(comparison, overlay, most));
   }
   page.add(std::move(times));
-  page.add(make_section("All differences", make_difference_tables(comparison), {}));
+  page.add(make_section("All differences", make_comparison_difference_tables(comparison), {}));
   std::vector<std::string> method = comparison.method;
   for (std::string& reason : list_interval_reasons(comparison)) method.push_back(std::move(reason));
   page.add({"How intervals are found", "", {make_list_block(method)}});

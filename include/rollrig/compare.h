@@ -31,7 +31,7 @@ struct DifferentInput {
 /// What one of the compared differs by from the reference, in the unit of the value.
 struct Difference {
   std::optional<double> value;    // none where one of the two has no value
-  std::optional<double> percent;  // of the reference's value; none where that is 0, and of temperatures in degC
+  std::optional<double> percent;  // of the reference's value; none where that is 0, of temperatures, and of percentages
   std::optional<double> sd;       // standard uncertainty of the difference
   std::optional<double> low_95;
   std::optional<double> high_95;
@@ -60,7 +60,7 @@ struct EnergyWaterfall {
   double start_J = 0.0;
   std::vector<EnergyStep> steps;
   double end_J = 0.0;
-  std::vector<std::string> missing;  // terms that one of the two does not have: they count as 0 there
+  std::vector<std::string> missing = {};  // terms that one of the two does not have: they count as 0 there
 };
 
 /// Its files: comparison.json, differences.csv.

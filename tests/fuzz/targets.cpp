@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "build_paths.h"
+#include "comparison/compare_results.h"
 #include "diagnosis/loop/ledger.h"
 #include "estimation/alignment/alignment.h"
 #include "estimation/drum_deceleration/coast_set.h"
@@ -158,6 +159,18 @@ Seeds bundle_results() {
   return {join_parts({result, recording, R"({"format": "rollrig-manifest/1"})"})};
 }
 
+/// A run with a budget and an energy audit, compared with itself.
+std::string make_compared_seed() {
+  const std::string result = R"({"format": "rollrig-result/1", "scenario": "skim", "result": {"rrc_N_per_kN": 6.5,
+ "sections": [{"name": "city 1", "energy_J": 2}]}, "phases": [{"name": "skim", "start_s": 0, "end_s": 1}],
+ "energy": {"terms_J": {"motor": 10, "tire_loss": -9, "heat_generated": 9}}, "uncertainty": {"budgets": [{"name": "RRc",
+ "key": "rrc_N_per_kN", "value": 6.5, "contributions": [{"name": "gain", "key": "gain_percent", "type": "B",
+ "sensitivity": 1, "contribution": 0.1, "degrees_of_freedom": null}]}]}})";
+  const std::string manifest = R"({"format": "rollrig-manifest/1", "seed": 1, "settings": {"load_N": 5000},
+ "tire": {"name": "a50", "load_map": []}, "rig": {"name": "drum_2m"}, "vehicle": {"axles": [{"tire": {}}]}})";
+  return join_parts({result, manifest, "time_s,phase,speed_km_h\n0,skim,80\n1,skim,80\n"});
+}
+
 Seeds bundle_coasts() {
   Seeds seeds;
   std::vector<fs::path> sets = find_files("tests/bad_input", "coastdown_", ".toml");
@@ -291,6 +304,12 @@ std::vector<Target> make_targets() {
                        append(read_seeds("tests/bad_input", "coastdown_", ".csv"), seeds);
                        return seeds;
                      }});
+  targets.push_back({"compared_results",
+                     {"result.json", "manifest.json", "recording.csv"},
+                     [](const std::string& folder) {
+                       comparison::compare_results({folder, folder}, {"a", "b"});
+                     },
+                     [] { return Seeds{make_compared_seed()}; }});
   targets.push_back({"alignment",
                      {"tires.csv"},
                      [](const std::string& folder) {

@@ -119,7 +119,7 @@ TEST_CASE("what is installed shows the API alone", "[fast]") {
 TEST_CASE("the manual page names every command", "[fast]") {
   const std::string page = rollrig::tests::run_program("man").out;
   for (const char* command : {"run", "sweep", "regress", "validate", "list", "describe", "fit tire", "fit road\\-load",
-                              "diagnose", "import", "export", "convert", "align"}) {
+                              "diagnose", "import", "export", "convert", "align", "compare"}) {
     CHECK_THAT(page, Contains(std::string(".SS rollrig ") + command + "\n"));
   }
   const TemporaryFolder folder;

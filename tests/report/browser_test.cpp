@@ -85,6 +85,25 @@ TEST_CASE("page of a sweep", "[slow]") {
                 "--charts 3");
 }
 
+TEST_CASE("page of a sweep over tires", "[slow]") {
+  check_command(TemporaryFolder(), "sweep iso_28580 --fidelity quasi_static --vary tire=a40,a50,a60", "--charts 3");
+  check_command(TemporaryFolder(),
+                "sweep iso_28580 --fidelity quasi_static --vary tire=a40,a50 --vary pressure_kPa=230:270:20",
+                "--charts 3");
+}
+
+TEST_CASE("pages of comparisons of results, sets and tires", "[slow]") {
+  const TemporaryFolder folder;
+  for (const char* tire : {"a40", "a50"}) {
+    const std::string made =
+        fmt::format("run iso_28580 --tire {0} --sensors source --uncertainty --out {0} --write-set {0}_set", tire);
+    REQUIRE(run_program(made, folder.path()).status == 0);
+  }
+  check_command(folder, "compare ./a40 ./a50", "--charts 3");  // bars, waterfall, channels
+  check_command(folder, "compare a40_set a50_set", "--charts 2");
+  check_command(TemporaryFolder(), "compare a40 a50 a60", "--charts 1");
+}
+
 TEST_CASE("pages of the sensitivity of a result", "[slow]") {
   for (const char* design : {"sobol_indices", "morris"}) {
     const TemporaryFolder folder;
