@@ -42,6 +42,9 @@ void add_examples(const CLI::App& app) {
       {"compare",
        "  rollrig compare a40 a50\n"
        "  rollrig compare warm hot --html difference.html\n"},
+      {"serve",
+       "  rollrig serve\n"
+       "  rollrig serve --port 8765 --keep pages --tire mine.toml\n"},
       {"campaign",
        "  rollrig campaign new sums iso_28580 --tire a50 --draw-sd tire \\\n"
        "    --points 1000 --fidelity quasi_static\n"

@@ -213,24 +213,22 @@ void add_waterfalls(const std::vector<ResultFolder>& folders, Comparison& compar
   }
 }
 
-/// The result that matters most: with an interval, else an RRc, else the one that differs most by its size.
-void add_message(Comparison& comparison) {
-  const ComparedValue* chosen = nullptr;
+/// The result that matters most: an RRc, else one with an interval, else the one that differs most by its size.
+void choose_main_result(Compared& compared) {
+  const std::vector<ComparedValue>& values = compared.comparison.values;
+  std::optional<std::size_t> chosen;
   double most = -1.0;
-  for (const ComparedValue& value : comparison.values) {
-    const Difference& first = value.differences.front();
-    if (!first.value.has_value()) continue;
-    double weight = std::abs(first.percent.value_or(0.0)) * 1e-6;
-    if (value.name == "rrc_25degC_2m_N_per_kN") weight += 1e6;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Difference& first = values[i].differences.front();
+    if (!first.value.has_value() || values[i].unit == "s") continue;
+    double weight = 1e-6 * std::abs(first.percent.value_or(0.0));
     if (first.sd.has_value()) weight += 1e3;
-    if (value.unit == "s" || weight <= most) continue;
+    if (values[i].name == "rrc_25degC_2m_N_per_kN") weight += 1e6;
+    if (weight <= most) continue;
     most = weight;
-    chosen = &value;
+    chosen = i;
   }
-  if (chosen == nullptr) return;
-  for (std::size_t i = 1; i < comparison.names.size(); ++i) {
-    comparison.message += (i > 1 ? ". " : "") + describe_difference(comparison, *chosen, i);
-  }
+  if (chosen.has_value()) choose_main(*chosen, compared);
 }
 
 Compared compare_folders(const std::vector<ResultFolder>& folders, const std::vector<std::string>& names) {
@@ -254,7 +252,7 @@ Compared compare_folders(const std::vector<ResultFolder>& folders, const std::ve
   add_intervals(folders, comparison);
   describe_shared(folders, comparison);
   add_waterfalls(folders, comparison);
-  add_message(comparison);
+  choose_main_result(compared);
   std::vector<OverlaidRun> runs;
   for (const ResultFolder& folder : folders) runs.push_back(read_overlaid(folder));
   compared.overlays.push_back(overlay_runs(runs, names, "", comparison.warnings));

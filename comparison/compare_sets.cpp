@@ -103,21 +103,11 @@ void describe_offsets(const std::vector<MeasurementSet>& sets, Comparison& compa
       text);
 }
 
-/// The force channel in the longest phase.
-void add_set_message(const std::vector<MeasurementSet>& sets, Comparison& comparison,
-                     const std::vector<GroupComparison>& groups) {
-  const std::string force = sets.front().kind->traits.force.header();
-  const ComparedValue* chosen = nullptr;
-  std::size_t most = 0;
-  for (const ComparedValue& value : comparison.values) {
-    if (value.name != force || !value.differences.front().value.has_value()) continue;
-    for (const GroupComparison& group : groups) {
-      for (const RunPhase& phase : group.phases(0)) {
-        if (value.place != fmt::format("{}, {}", group.run(0).id, phase.name)) continue;
-        if (phase.last - phase.first <= most) continue;
-        most = phase.last - phase.first;
-        chosen = &value;
-      }
+/// Rows of the phase of a place.
+std::size_t count_rows(const std::string& place, const std::vector<GroupComparison>& groups) {
+  for (const GroupComparison& group : groups) {
+    for (const RunPhase& phase : group.phases(0)) {
+      if (place == group.name_place(phase)) return phase.last - phase.first;
     }
   }
   return 0;
@@ -138,6 +128,7 @@ std::optional<std::size_t> find_main_mean(const std::vector<ComparedValue>& valu
     most = length;
     chosen = i;
   }
+  return chosen.has_value() || values.empty() ? chosen : std::optional<std::size_t>(0);
 }
 
 void require_one_kind(const std::vector<MeasurementSet>& sets) {

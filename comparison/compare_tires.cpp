@@ -197,16 +197,11 @@ const char* name_of_basis(models::TireBasis basis) {
   return basis == models::TireBasis::kMeasured ? "measured" : basis == models::TireBasis::kClass ? "class" : "not said";
 }
 
-void add_tire_message(Comparison& comparison) {
-  const ComparedValue* chosen = nullptr;
-  for (const ComparedValue& value : comparison.values) {
-    const bool is_rrc = value.name == "rrc_25degC_2m_N_per_kN";
-    if (chosen == nullptr || (is_rrc && chosen->name != value.name)) chosen = &value;
-  }
-  if (chosen == nullptr) return;
-  for (std::size_t i = 1; i < comparison.names.size(); ++i) {
-    comparison.message += (i > 1 ? ". " : "") + describe_difference(comparison, *chosen, i);
-  }
+/// RRc as ISO 28580 has it, else the first value.
+std::size_t find_main_value(const std::vector<ComparedValue>& values) {
+  const auto rrc = std::find_if(values.begin(), values.end(),
+                                [](const ComparedValue& value) { return value.name == "rrc_25degC_2m_N_per_kN"; });
+  return rrc != values.end() ? static_cast<std::size_t>(rrc - values.begin()) : 0;
 }
 
 }  // namespace
@@ -250,7 +245,7 @@ Compared compare_tires(const std::vector<TireFile>& tires, const std::vector<Vir
       "files are taken to be independent, and to be common where all numbers of both are equal. How well the law of "
       "the "
       "tire model describes a tire is not included"};
-  add_tire_message(comparison);
+  if (!comparison.values.empty()) choose_main(find_main_value(comparison.values), compared);
   return compared;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "sim/core/units.h"
@@ -43,6 +44,8 @@ void add_reason(const std::string& why, Difference& difference) {
   if (difference.value.has_value() && !difference.sd.has_value()) difference.why_no_interval = why;
 }
 
+namespace {
+
 std::string describe_difference(const Comparison& comparison, const ComparedValue& value, std::size_t other) {
   const Difference& difference = value.differences[other - 1];
   const std::string& name = comparison.names[other];
@@ -64,7 +67,19 @@ std::string describe_difference(const Comparison& comparison, const ComparedValu
   } else {
     more += "no interval";
   }
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return fmt::format("{} ({})", text, more);
+}
+
+}  // namespace
+
+void choose_main(std::size_t value, Compared& compared) {
+  Comparison& comparison = compared.comparison;
+  compared.main = value;
+  comparison.message.clear();
+  for (std::size_t i = 1; i < comparison.names.size(); ++i) {
+    comparison.message += (i > 1 ? ". " : "") + describe_difference(comparison, comparison.values[value], i);
+  }
 }
 
 }  // namespace rollrig::comparison

@@ -37,6 +37,7 @@ struct Overlay {
 struct Compared {
   Comparison comparison;  // all but its text, JSON and functions
   std::vector<Overlay> overlays;
+  std::optional<std::size_t> main;  // the value of the message
 };
 
 /// The difference of two values, without an interval.
@@ -50,8 +51,8 @@ void add_interval(double sd, double coverage_factor, Difference& difference);
 /// Adds an interval, or why there is none, to a difference that has a value.
 void add_reason(const std::string& why, Difference& difference);
 
-/// A sentence on the difference of a value: "RRc of b is 0.620 N/kN lower than that of a (-7.1 %; 95 % interval -0.9 to
-/// -0.3)".
-std::string describe_difference(const Comparison& comparison, const ComparedValue& value, std::size_t other);
+/// Makes a value the main one, with a sentence on it for each but the reference: "RRc of b is 0.62 N/kN lower than that
+/// of a (-7.1 %; 95 % interval -0.9 to -0.3 N/kN)".
+void choose_main(std::size_t value, Compared& compared);
 
 }  // namespace rollrig::comparison

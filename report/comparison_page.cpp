@@ -33,6 +33,7 @@ std::string explain_missing(const EnergyWaterfall& waterfall) {
 }
 
 Block make_waterfall_block(const Comparison& comparison, const EnergyWaterfall& waterfall) {
+  constexpr double kPerJ = 1e-3;
   const std::string term = plain_name(waterfall.term);
   const auto make_end = [&term](const std::string& name, double energy_J) {
     return WaterfallBar{fmt::format("{}, {}", term, name), kPerJ * energy_J};
@@ -61,15 +62,7 @@ Block make_main_tiles(const Comparison& comparison, const ComparedValue& value) 
     }
     tiles.push_back(std::move(tile));
   }
-  return {{"type", "waterfall"},
-          {"unit", "J"},
-          {"start", {{"name", fmt::format("{}, {}", term, comparison.names.front())}, {"value", waterfall.start_J}}},
-          {"steps", steps},
-          {"end", {{"name", fmt::format("{}, {}", term, waterfall.compared)}, {"value", waterfall.end_J}}},
-          {"caption",
-           fmt::format("From the energy of the {} of {} to that of {}: how much more goes into each term of the energy "
-                       "audit.{}",
-                       term, comparison.names.front(), waterfall.compared, explain_missing(waterfall))}};
+  return make_tiles(tiles);
 }
 
 /// Values whose differences have a bar: those with an interval first, then those that differ most.
@@ -77,10 +70,9 @@ std::vector<const ComparedValue*> choose_bars(const Comparison& comparison) {
   constexpr std::size_t kMost = 10;  // as many have room
   std::vector<const ComparedValue*> chosen;
   for (const ComparedValue& value : comparison.values) {
-    const bool is_number_of_list = value.place.empty() && value.name.find('.') != std::string::npos;
-    const bool is_of_tire = comparison.kind == ComparedKind::kTires && value.place.empty();
-    const bool has_percent = value.differences.front().percent.has_value();
-    if (!has_percent || value.unit == "s" || (is_number_of_list && !is_of_tire)) continue;
+    const bool is_of_list = value.name.find('.') != std::string::npos;  // or a number of a tire file
+    const bool is_uncertainty = value.name.find("uncertainty") != std::string::npos;
+    if (!value.differences.front().percent.has_value() || value.unit == "s" || is_of_list || is_uncertainty) continue;
     if (*value.differences.front().percent != 0.0) chosen.push_back(&value);
   }
   const auto weigh = [](const ComparedValue* value) {
@@ -174,12 +166,18 @@ Page make_comparison_page(const comparison::Compared& compared) {
   Page page{"compare", fmt::format("Comparison of {}", comparison::name_of(comparison.kind)),
             fmt::format("{}. The first is the reference.", fmt::join(comparison.names, ", "))};
   Section top{"Main difference"};
-  if (!comparison.message.empty()) top.blocks.push_back(make_lead("good", comparison.message + "."));
+  if (!comparison.message.empty()) top.blocks.push_back(make_lead("", comparison.message + "."));
+  if (compared.main.has_value()) {
+    top.blocks.push_back(make_main_tiles(comparison, comparison.values.at(*compared.main)));
+  }
   if (!comparison.warnings.empty()) top.blocks.push_back(make_warnings(comparison.warnings));
   const std::vector<const ComparedValue*> bars = choose_bars(comparison);
   if (!bars.empty()) top.blocks.push_back(make_difference_bars(comparison, bars));
   page.add(std::move(top));
-  page.add({"Inputs", "", {make_table(make_comparison_input_table(comparison))}});
+  page.add({"Inputs",
+            "",
+            {comparison.inputs.empty() ? make_paragraph("All inputs are the same.")
+                                       : make_table(make_comparison_input_table(comparison))}});
   Section energy{"Energy"};
   for (const EnergyWaterfall& waterfall : comparison.waterfalls) {
     energy.blocks.push_back(make_waterfall_block(comparison, waterfall));

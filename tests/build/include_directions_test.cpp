@@ -1,7 +1,6 @@
 // Includes follow one direction: cli -> api -> report -> diagnosis -> scenarios -> estimation -> measurements -> rigs
-// -> models -> sim/core, report -> comparison -> diagnosis, rigs -> sim -> sim/core, and api -> campaigns -> sim/core. Validation stands on top of all of
-// it, its generator on sim/core alone.
-// Third-party packages stay behind a few files.
+// -> models -> sim/core, report -> comparison -> diagnosis, rigs -> sim -> sim/core, and api -> campaigns -> sim/core.
+// Validation stands on top of all of it, its generator on sim/core alone. Third-party packages stay behind a few files.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -103,8 +102,8 @@ std::size_t rank_of(const std::string& folder) {
 }
 
 const std::vector<const char*> kTops{"include",    "sim",       "tables",  "models",    "rigs",       "measurements",
-                                     "estimation", "scenarios", "exports", "diagnosis", "comparison", "validation", "report",
-                                     "campaigns",  "api",       "cli",     "examples"};
+                                     "estimation", "scenarios", "exports", "diagnosis", "comparison", "validation",
+                                     "report",     "campaigns", "api",     "serve",     "cli",        "examples"};
 
 template <class Visit>
 void visit_includes(Visit&& visit) {

@@ -22,6 +22,7 @@ export const kBlocks = {
   bars: barsBlock, cross_section: crossSectionBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
   map: mapBlock, pre: preBlock, animation: animationBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
   tiles: tilesBlock, time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
+  waterfall: waterfallBlock,
 };
 
 export const slug = (title) => title.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
