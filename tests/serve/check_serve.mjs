@@ -55,11 +55,11 @@ async function checkWrongNumber() {
 async function checkEffectsAndTests() {
   const before = await page.evaluate(kRrc);
   await page.click('.controls .group:nth-of-type(2) > summary, details.group:has(.effects) > summary');
-  await page.click('#effect-windage');
+  await page.click('#effect-toe_camber_drag');
   await settled();
   await page.until(`${kRrc} !== ${before}`);
   check(true, 'an effect changes the RRc');
-  await page.click('#effect-windage');
+  await page.click('#effect-toe_camber_drag');
   await settled();
   await page.choose('#scenario', 'speed_sweep');
   await page.until("document.querySelector('h1').textContent.startsWith('RRc at several speeds')");

@@ -72,9 +72,9 @@ function sorted(sections) {
 
 export class Results {
   /// `keepsOrder`: sections as the payload has them.
-  constructor({ keepsOrder = false } = {}) {
+  constructor({ id = 'content', keepsOrder = false } = {}) {
     this.keepsOrder = keepsOrder;
-    this.element = h('main', { id: 'content', tabindex: '-1' });
+    this.element = h('main', { id, tabindex: '-1' });
     this.slots = [];
   }
 

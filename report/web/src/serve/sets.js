@@ -20,7 +20,7 @@ const kWords = {
 export class Sets {
   constructor(choices) {
     this.choices = choices;
-    this.results = new Results({ keepsOrder: true });
+    this.results = new Results({ id: 'diagnosis', keepsOrder: true });
     this.steps = h('div', { class: 'steps' });
     const chooser = h('input', { type: 'file', id: 'folder', webkitdirectory: true, multiple: true, class: 'hiddenfile', onchange: () => this.take(readChosen(chooser.files)) });
     this.zone = h('div', { class: 'dropzone' }, h('p', null, 'Drop a folder of CSV files here, or anywhere on this page.'),
