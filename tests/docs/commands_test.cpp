@@ -32,6 +32,7 @@ const std::vector<NotRun> kNotRun{
     {"tests/fuzz/", "is not built for users, and takes minutes"},
     {"tools/fuzz ", "builds the readers with Clang, and takes minutes"},
     {"clang-format -i <files>", "the reader names the files"},
+    {"rollrig serve", "serves its page until it is stopped"},
     {"mpirun ", "needs MPI and a file of machines"},
     {"$ROLLRIG_MEASURED_DATA", "needs measured data that are not part of rollrig"},
 };

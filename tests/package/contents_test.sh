@@ -50,7 +50,7 @@ esac
 dpkg-deb --extract "$program" "$work/rollrig"
 dpkg-deb --extract "$library" "$work/rollrig-dev"
 triplet=$(dpkg-architecture -qDEB_HOST_MULTIARCH)
-for file in usr/bin/rollrig "usr/lib/$triplet/librollrig.so.$version" "usr/lib/$triplet/librollrig_cvodes.so.$version" \
+for file in usr/bin/rollrig usr/bin/rollrig_serve "usr/lib/$triplet/librollrig.so.$version" "usr/lib/$triplet/librollrig_cvodes.so.$version" \
   "usr/lib/$triplet/librollrig_multibody.so.$version" \
   usr/share/rollrig/assets/tires/a50.toml usr/share/man/man1/rollrig.1.gz usr/share/doc/rollrig/copyright \
   usr/share/doc/rollrig/changelog.Debian.gz usr/share/doc/rollrig/changelog.gz usr/share/doc/rollrig/NOTICE.md \
@@ -81,7 +81,7 @@ for name in $linked echarts zrender tslib; do
   grep -qi "$name" "$work/rollrig/usr/share/doc/rollrig/copyright" || fail "the copyright file does not name $name"
 done
 
-for binary in usr/bin/rollrig "usr/lib/$triplet/librollrig.so.$version" "usr/lib/$triplet/librollrig_cvodes.so.$version" \
+for binary in usr/bin/rollrig usr/bin/rollrig_serve "usr/lib/$triplet/librollrig.so.$version" "usr/lib/$triplet/librollrig_cvodes.so.$version" \
   "usr/lib/$triplet/librollrig_multibody.so.$version"; do
   sections=$(readelf --sections --wide "$work/rollrig/$binary")
   case $sections in
