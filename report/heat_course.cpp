@@ -133,46 +133,64 @@ bool is_idle(const HeatLink& link) {
   return std::all_of(link.mean_W.begin(), link.mean_W.end(), [](double flow_W) { return flow_W == 0.0; });
 }
 
+/// Adds up flows over the rows of a stretch, and puts its means into the course.
+class StretchSums {
+ public:
+  explicit StretchSums(HeatCourse& course) : course_(course), sums_J_(kTotals + course.links.size(), 0.0) {}
+
+  void begin(std::vector<double> flows_W) { before_W_ = std::move(flows_W); }
+
+  void add(double length_s, std::vector<double> flows_W) {
+    for (std::size_t i = 0; i < flows_W.size(); ++i) sums_J_[i] += 0.5 * length_s * (before_W_[i] + flows_W[i]);
+    before_W_ = std::move(flows_W);
+  }
+
+  void end(double length_s) {
+    std::vector<double>* totals_W[kTotals] = {&course_.generated_W, &course_.to_air_W, &course_.to_surface_W};
+    for (std::size_t i = 0; i < sums_J_.size(); ++i) {
+      std::vector<double>& means_W = i < kTotals ? *totals_W[i] : course_.links[i - kTotals].mean_W;
+      means_W.push_back(length_s > 0.0 ? sums_J_[i] / length_s : 0.0);
+      sums_J_[i] = 0.0;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kTotals = 3;  // in the order of list_flows()
+
+  HeatCourse& course_;
+  std::vector<double> sums_J_;
+  std::vector<double> before_W_;
+};
+
 }  // namespace
 
 std::optional<HeatCourse> find_heat_course(const scenarios::RunSpec& spec, const sim::Recording<double>& recording,
                                            const std::string& position, std::size_t axle, std::size_t most) {
   const models::Corner<double> corner(make_heat_context(spec, axle), spec.effects);
   const CornerColumns columns(corner, recording, position);
-  const std::size_t rows = recording.row_count();
-  if (!columns.is_whole() || rows < 2) return std::nullopt;
+  const std::vector<double>& time_s = recording.time_s;
+  if (!columns.is_whole() || time_s.size() < 2) return std::nullopt;
   RowEvaluation evaluation(corner, columns);
   HeatCourse course;
   course.nodes = list_heat_nodes(corner);
   course.links = list_links(course.nodes);
-  const std::size_t step = (rows - 2) / most + 1;
-  std::vector<double> before_W, sum_J;
   const auto end_stretch = [&](std::size_t row) {
-    course.time_s.push_back(recording.time_s[row]);
+    course.time_s.push_back(time_s[row]);
     course.stored_J.push_back(evaluation.stored_J());
     for (HeatNode& node : course.nodes) {
       node.temperature_K.push_back((*columns.states[corner.state_of(node.node)])[row]);
     }
   };
-  for (std::size_t row = 0; row < rows; ++row) {
-    std::vector<double> flows_W = list_flows(evaluation.at(row), course.links);
-    if (row == 0) {
-      end_stretch(row);
-      sum_J.assign(flows_W.size(), 0.0);
-    } else {
-      const double half_s = 0.5 * (recording.time_s[row] - recording.time_s[row - 1]);
-      for (std::size_t i = 0; i < flows_W.size(); ++i) sum_J[i] += half_s * (before_W[i] + flows_W[i]);
-    }
-    before_W = std::move(flows_W);
-    if (row == 0 || (row % step != 0 && row + 1 != rows)) continue;
-    const double length_s = recording.time_s[row] - course.time_s.back();
+  StretchSums sums(course);
+  sums.begin(list_flows(evaluation.at(0), course.links));
+  end_stretch(0);
+  const std::size_t last = time_s.size() - 1;
+  const std::size_t step = (last - 1) / most + 1;
+  for (std::size_t row = 1; row <= last; ++row) {
+    sums.add(time_s[row] - time_s[row - 1], list_flows(evaluation.at(row), course.links));
+    if (row % step != 0 && row != last) continue;
+    sums.end(time_s[row] - course.time_s.back());
     end_stretch(row);
-    std::vector<double>* totals_W[] = {&course.generated_W, &course.to_air_W, &course.to_surface_W};
-    for (std::size_t i = 0; i < sum_J.size(); ++i) {
-      std::vector<double>& means_W = i < 3 ? *totals_W[i] : course.links[i - 3].mean_W;
-      means_W.push_back(length_s > 0.0 ? sum_J[i] / length_s : 0.0);
-      sum_J[i] = 0.0;
-    }
   }
   course.links.erase(std::remove_if(course.links.begin(), course.links.end(), is_idle), course.links.end());
   return course;
