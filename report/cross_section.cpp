@@ -75,9 +75,9 @@ void add_heat(const HeatCourse& course, Block& block) {
   block["generated_W"] = round_all(course.generated_W, kTenths);
   block["to_air_W"] = round_all(course.to_air_W, kTenths);
   block["to_surface_W"] = round_all(course.to_surface_W, kTenths);
-  std::vector<double> stored_W;
-  for (std::size_t i = 0; i + 1 < course.time_s.size(); ++i) {
-    stored_W.push_back((course.stored_J[i + 1] - course.stored_J[i]) / (course.time_s[i + 1] - course.time_s[i]));
+  std::vector<double> stored_W;  // by the heat balance: the change of recorded temperatures has the sensors' noise
+  for (std::size_t i = 0; i < course.generated_W.size(); ++i) {
+    stored_W.push_back(course.generated_W[i] - course.to_air_W[i] - course.to_surface_W[i]);
   }
   block["stored_W"] = round_all(stored_W, kTenths);
   block["links"] = Json::array();

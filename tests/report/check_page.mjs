@@ -212,8 +212,7 @@ async function checkSection() {
     const given = [block.generated_W, block.to_air_W, block.to_surface_W, block.stored_W].map((values) => values[i]);
     if (!flows.every((flow, k) => Math.abs(flow - given[k]) <= 0.51)) wrong = `${flows} W shown at ${time_s} s, ${given} W given`;
     const left_W = flows[0] - flows[1] - flows[2] - flows[3];
-    // Four numbers are rounded to a watt. Where the load jumps within a sample, its mean stands for a value.
-    if (!(Math.abs(left_W) <= 2 + 0.03 * Math.max(...block.generated_W))) wrong = `${left_W} W are left over at ${time_s} s`;
+    if (!(Math.abs(left_W) <= 2.1)) wrong = `${left_W} W are left over at ${time_s} s`; // four numbers, each rounded to a watt
   }
   check(looks > 3 && wrong === '', `the section shows flows that add up, at ${looks} times: ${wrong}`);
   check(moved > 2, `arrows and colors of the section move with the slider, ${moved} times`);
