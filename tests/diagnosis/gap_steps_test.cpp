@@ -20,7 +20,7 @@ constexpr double kGapOfNoise = 0.5;
 models::ActiveEffect make_warming_bearings() {
   return tests::make_active(models::find_effect("bearing_warmup"), {0.02, 20.0, 15.0, 1.0});
 }
-models::ActiveEffect make_load_exponent() { return tests::make_active(models::find_effect("load_exponent"), {0.1}); }
+models::ActiveEffect make_load_exponent() { return tests::make_active(models::find_effect("load_exponent"), {1.12}); }
 
 /// Two effects fitted together, from the middles of their priors.
 Candidate fit_both(const diagnosis::Study& study) {
