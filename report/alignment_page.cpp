@@ -155,6 +155,32 @@ Block make_control_chart(const ControlChart& chart) {
   return block;
 }
 
+Block make_alignment_tiles(const AlignmentResult& result) {
+  const double middle = 0.5 * (result.fit.points.front().x + result.fit.points.back().x);
+  const UncertainValue aligned = estimation::align_value(result.line, middle, 1);
+  const auto broken = std::count_if(result.checks.begin(), result.checks.end(),
+                                    [](const AlignmentCheck& check) { return check.is_rule && !check.is_met; });
+  return make_tiles(
+      {{"Alignment",
+        result.is_valid ? "valid" : "not valid",
+        "",
+        broken > 0 ? format_count(static_cast<std::size_t>(broken), "rule") + " broken" : "all rules are met",
+        result.is_valid ? "good" : "bad",
+        {}},
+       {fmt::format("{:.2f} N/kN measured is", middle),
+        fmt::format("{:.2f} +- {:.2f}", aligned.value, aligned.coverage_factor * aligned.sd),
+        "N/kN",
+        "aligned; +- is the interval of 95 % of one measurement",
+        "",
+        {}},
+       {"Repeatability sigma_m",
+        fmt::format("{:.3f}", result.sigma_m.sd),
+        "N/kN",
+        format_count(result.needed_measurements, "measurement") + " of each tire are needed",
+        "",
+        {"/sigma_m_N_per_kN/value"}}});
+}
+
 }  // namespace
 
 std::string describe_alignment_verdict(const AlignmentResult& result) {
@@ -182,7 +208,9 @@ std::vector<Table> make_control_tire_tables(const AlignmentResult& result) {
 Page make_alignment_page(const AlignmentFile& file, const AlignmentResult& result) {
   Page page{"align", fmt::format("Alignment of a machine: {}", name_or(file.machine, file.path.c_str())),
             fmt::format("{}, classes {}", format_count(file.tires.size(), "tire"), file.rules.classes)};
-  page.add(make_section("Result", make_alignment_tables(file, result), result.warnings));
+  Section section = make_section("Result", make_alignment_tables(file, result), result.warnings);
+  section.blocks.insert(section.blocks.begin(), make_alignment_tiles(result));
+  page.add(std::move(section));
   page.add({"The line", "", {make_line_chart(result), make_alignment_residual_chart(result)}});
   Section controls{"Control tires over time"};
   for (const ControlChart& chart : result.monitoring.charts) {

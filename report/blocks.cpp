@@ -33,10 +33,11 @@ Json make_series(const std::string& name, const std::vector<double>& time_s, con
 Block make_tiles(const std::vector<Tile>& tiles) {
   Block block = {{"type", "tiles"}, {"tiles", Json::array()}};
   for (const Tile& tile : tiles) {
-    Json json = {{"label", tile.label}, {"value", tile.value}};
+    Json json = {{"label", pretty_unit(tile.label)}, {"value", tile.value}};
     if (!tile.unit.empty()) json["unit"] = pretty_unit(tile.unit);
-    if (!tile.note.empty()) json["note"] = tile.note;
+    if (!tile.note.empty()) json["note"] = pretty_unit(tile.note);
     if (!tile.tone.empty()) json["tone"] = tile.tone;
+    if (!tile.from.empty()) json["from"] = tile.from;
     block["tiles"].push_back(std::move(json));
   }
   return block;

@@ -48,10 +48,19 @@ Page make_campaign_page(const PlannedCampaign& campaign) {
             fmt::format("Campaign on {} with tire {}", diagnosis::name_machine(campaign.set), campaign.set.tire.name),
             fmt::format("{:.1f} of {:g} h", campaign.hours, campaign.most_hours)};
   Section what{"What it would show"};
+  const std::size_t visible = diagnosis::count_visible(campaign);
+  what.blocks.push_back(make_tiles(
+      {{"Visible effects",
+        fmt::format("{} of {}", visible, campaign.effects.size()),
+        "",
+        "at their usual size",
+        visible > 0 ? "good" : "doubt",
+        {}},
+       {"Time", fmt::format("{:.1f}", campaign.hours), "h", fmt::format("of {:g} h", campaign.most_hours), "", {}},
+       {"Tests", fmt::format("{}", campaign.ledger.size()), "", "in their order below", "", {}}}));
   what.blocks.push_back(make_lead(
-      "good",
-      fmt::format("{} of {} effects would be visible at their usual size.", diagnosis::count_visible(campaign),
-                  campaign.effects.size()),
+      visible > 0 ? "good" : "doubt",
+      fmt::format("{} of {} effects would be visible at their usual size.", visible, campaign.effects.size()),
       "A visible effect changes the measurement by 5 standard deviations, whatever the numbers of the files are within "
       "their uncertainty. It may still be taken for another effect."));
   what.blocks.push_back(make_shares(campaign));

@@ -93,10 +93,13 @@ Block make_probabilities(const Findings& findings) {
                     {"text", show_probability(probability)}});
   }
   const std::size_t others = findings.probability.size() - ranked.size();
-  return {{"type", "shares"},
-          {"caption", fmt::format("Probability of each effect; {} more are below {:.1f} %", others, 100.0 * kListed)},
-          {"columns", {"effect", "probability"}},
-          {"rows", rows}};
+  return {
+      {"type", "shares"},
+      {"caption", fmt::format("Probability that each effect acts. Several may act together, so each bar is a share of "
+                              "its own whole. {} more are below {:.1f} %",
+                              others, 100.0 * kListed)},
+      {"columns", {"effect", "probability"}},
+      {"rows", rows}};
 }
 
 Block make_ranking(const Findings& findings) {
@@ -191,8 +194,91 @@ std::string describe_alone(const Cause& cause) {
 
 }  // namespace
 
+namespace {
+
+/// A summary up to its first semicolon or colon: what the effect is, in a clause.
+std::string make_clause(const std::string& summary) { return summary.substr(0, summary.find_first_of(";:")); }
+
+Tile make_cause_tile(const Findings& findings) {
+  const bool has_cause = !findings.causes.empty();
+  if (findings.verdict == Verdict::kNoGap) return {"Cause", "none", "", "the simulation meets the measurement", "good"};
+  if (!findings.doubt.empty()) return {"Cause", "files in doubt", "", "before any physics", "bad"};
+  if (findings.verdict == Verdict::kUnexplained || !has_cause) {
+    return {"Cause", "unknown", "", "no effect of the catalog follows the gap", "bad"};
+  }
+  const Cause& cause = findings.causes.front();
+  std::vector<std::string> names;
+  std::vector<std::string> clauses;
+  for (const std::string& id : cause.effects) {
+    names.push_back(plain_name(id));
+    clauses.push_back(make_clause(summary_of(id)));
+  }
+  return {"Cause", fmt::format("{}", fmt::join(names, " and ")), "", fmt::format("{}", fmt::join(clauses, "; ")),
+          "good"};
+}
+
+/// How sure the verdict is.
+Tile make_certainty_tile(const Findings& findings) {
+  const auto tile = [](double probability, const char* note, const std::string& from) {
+    return Tile{"How sure", show_probability(probability), "", note, "", {from}};
+  };
+  if (findings.verdict == Verdict::kNoGap) {
+    if (findings.nothing_detectable.has_value()) {
+      return tile(*findings.nothing_detectable, "probability that nothing acts which this set would show",
+                  "/nothing_detectable");
+    }
+    return tile(diagnosis::probability_of(findings, "none"), "probability that nothing acts", "/probability/none");
+  }
+  if (findings.verdict == Verdict::kUnexplained || findings.causes.empty()) {
+    return tile(diagnosis::probability_of(findings, "unknown"), "probability of something outside the catalog",
+                "/probability/unknown");
+  }
+  return tile(findings.causes.front().probability, "probability of this cause", "/causes/0/probability");
+}
+
+/// What the gap was and what the cause leaves of it.
+std::vector<Tile> make_gap_tiles(const Findings& findings) {
+  const GapView& judged = findings.gap.recalibrated;
+  const char* where = findings.gap.held_out.empty() ? "fitted data" : "runs left out of the fit";
+  const auto show = [](double floors) { return fmt::format("{:.2f}", floors); };
+  if (findings.verdict != Verdict::kExplained || findings.causes.empty()) {
+    return {{"Residual",
+             show(judged.before),
+             "noise floors",
+             fmt::format("recalibrated, {}", where),
+             "",
+             {"/gap/recalibrated/before"}}};
+  }
+  return {{"Residual before",
+           show(judged.before),
+           "noise floors",
+           fmt::format("recalibrated, {}", where),
+           "",
+           {"/gap/recalibrated/before"}},
+          {"Residual with the cause",
+           show(judged.after),
+           "noise floors",
+           "likewise; 0: nothing is left",
+           "",
+           {"/gap/recalibrated/after"}}};
+}
+
+Block make_gap_bars(const Gap& gap) {
+  return make_bars(
+      {"Residual without noise", "noise floors"},
+      {"as calibrated, numbers of the files", "recalibrated, held-out runs"},
+      {{{"name", "before"}, {"values", {rounded(gap.as_calibrated.before), rounded(gap.recalibrated.before)}}},
+       {{"name", "with the cause"}, {"values", {rounded(gap.as_calibrated.after), rounded(gap.recalibrated.after)}}}},
+      "One noise floor is the standard deviation of a mean over ten seconds.");
+}
+
+}  // namespace
+
 Section make_verdict(const Findings& findings) {
   Section section{"Verdict"};
+  std::vector<Tile> tiles{make_cause_tile(findings), make_certainty_tile(findings)};
+  for (const Tile& tile : make_gap_tiles(findings)) tiles.push_back(tile);
+  section.blocks.push_back(make_tiles(tiles));
   const char* tone = findings.verdict == Verdict::kUnexplained ? "bad" : "good";
   std::string more = findings.doubt;
   if (findings.verdict == Verdict::kNoGap && findings.trace.has_value()) more = describe_trace(*findings.trace);
@@ -213,6 +299,7 @@ Section make_verdict(const Findings& findings) {
   }
   section.blocks.push_back(make_lead(tone, describe_verdict(findings), more));
   if (!findings.warnings.empty()) section.blocks.push_back(make_warnings(findings.warnings));
+  section.blocks.push_back(make_gap_bars(findings.gap));
   return section;
 }
 
@@ -262,11 +349,6 @@ Section make_gap(const Findings& findings) {
                                           ? fmt::format("Judged on {}, each left out of the fit in turn: {}.",
                                                         format_count(gap.held_out.size(), "run"), join(gap.held_out))
                                           : "There is one run, so nothing can be left out: judged on the fitted data."};
-  section.blocks.push_back(make_bars(
-      {"Gap without noise", "noise floors"}, {"as calibrated, numbers of the files", "recalibrated, held-out runs"},
-      {{{"name", "before"}, {"values", {rounded(gap.as_calibrated.before), rounded(gap.recalibrated.before)}}},
-       {{"name", "with the cause"}, {"values", {rounded(gap.as_calibrated.after), rounded(gap.recalibrated.after)}}}},
-      "One noise floor is the standard deviation of a mean over ten seconds."));
   for (Block& block : make_gap_waterfalls(gap)) section.blocks.push_back(std::move(block));
   const auto percent = [](const std::optional<double>& value) {
     return value.has_value() ? fmt::format("{:.0f} %", *value) : std::string("not above the noise");

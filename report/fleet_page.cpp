@@ -52,6 +52,23 @@ Block make_gaps(const Fleet& fleet) {
                    {{{"name", "before"}, {"values", before}}, {{"name", "with the cause"}, {"values", after}}});
 }
 
+Block make_fleet_tiles(const Fleet& fleet) {
+  std::size_t counts[4] = {};  // explained, no gap, unexplained, not diagnosed
+  for (const FleetMember& member : fleet.members) {
+    if (!member.findings.has_value()) {
+      ++counts[3];
+      continue;
+    }
+    ++counts[member.findings->verdict == Verdict::kExplained ? 0 : member.findings->verdict == Verdict::kNoGap ? 1 : 2];
+  }
+  const std::string of = "of " + format_count(fleet.members.size(), "set");
+  std::vector<Tile> tiles{{"Explained", fmt::format("{}", counts[0]), "", of, "good", {}},
+                          {"No gap", fmt::format("{}", counts[1]), "", of, "good", {}},
+                          {"Unexplained", fmt::format("{}", counts[2]), "", of, counts[2] > 0 ? "bad" : "", {}}};
+  if (counts[3] > 0) tiles.push_back({"Not diagnosed", fmt::format("{}", counts[3]), "", of, "bad", {}});
+  return make_tiles(tiles);
+}
+
 /// The verdict on a set in a sentence, or why there is none, and what is warned of.
 Section make_member(const FleetMember& member) {
   Section section{last_part(member.folder, '/')};
@@ -74,7 +91,7 @@ Section make_member(const FleetMember& member) {
 
 Page make_fleet_page(const Fleet& fleet) {
   Page page{"diagnose", "Diagnosis of " + format_count(fleet.members.size(), "set"), ""};
-  page.add({"Sets", "", {make_table(diagnosis::make_fleet_table(fleet)), make_gaps(fleet)}});
+  page.add({"Sets", "", {make_fleet_tiles(fleet), make_table(diagnosis::make_fleet_table(fleet)), make_gaps(fleet)}});
   Section back{"What comes back"};
   back.blocks.push_back(fleet.recurrences.empty()
                             ? make_paragraph("No effect acts with more than 80 % in all sets of a machine or a tire.")

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostBars = 8;
 
 Block make_rrc_bars(const PairFindings& findings) {
-  Json names = Json::array({"no effect"}), values = Json::array(), low = Json::array(), high = Json::array();
+  Json names = Json::array({"as measured"}), values = Json::array(), low = Json::array(), high = Json::array();
   const auto add = [&](const RrcEstimate& estimate) {
     values.push_back(rounded(estimate.value_N_per_kN));
     low.push_back(rounded(estimate.low_95_N_per_kN));
@@ -34,7 +34,12 @@ Block make_rrc_bars(const PairFindings& findings) {
 Block make_probability_bars(const PairFindings& findings) {
   std::vector<std::pair<std::string, double>> sorted(findings.probability.begin(), findings.probability.end());
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  sorted.resize(std::min(sorted.size(), kMostBars));
+  if (sorted.size() > kMostBars) {  // the rest as one bar, so that all bars are the whole
+    double rest = 0.0;
+    for (std::size_t i = kMostBars - 1; i < sorted.size(); ++i) rest += sorted[i].second;
+    sorted.resize(kMostBars - 1);
+    sorted.emplace_back("all others", rest);
+  }
   Json names = Json::array(), values = Json::array();
   for (const auto& [name, probability] : sorted) {
     names.push_back(name);
@@ -42,6 +47,43 @@ Block make_probability_bars(const PairFindings& findings) {
   }
   return make_bars({"Probability", "%", true}, names, {{{"name", "probability"}, {"values", values}}},
                    "agree: nothing makes the machines differ. unknown: something outside the catalog.");
+}
+
+Block make_pair_tiles(const PairFindings& findings) {
+  std::vector<Tile> tiles;
+  const auto probability = [&findings](const char* name) {
+    const auto found = findings.probability.find(name);
+    return diagnosis::show_probability(found != findings.probability.end() ? found->second : 0.0);
+  };
+  if (findings.verdict == PairVerdict::kAgree) {
+    tiles.push_back({"Do they differ?", "no", "", "nothing beyond the noise", "good", {}});
+    tiles.push_back({"How sure", probability("agree"), "", "probability that they agree", "", {"/probability/agree"}});
+  } else if (findings.verdict == PairVerdict::kUnexplained || findings.causes.empty()) {
+    tiles.push_back({"They differ in", "something unknown", "", "no effect that rollrig knows follows it", "bad", {}});
+    tiles.push_back({"How sure", probability("unknown"), "", "probability of it", "", {"/probability/unknown"}});
+  } else {
+    const MachineDifference& cause = findings.causes.front();
+    std::vector<std::string> names;
+    for (const std::string& effect : cause.effects) names.push_back(plain_name(effect));
+    std::string where = "on";
+    for (const OnMachine& one : cause.on_machine) where += one.probability[0] > one.probability[1] ? " A" : " B";
+    tiles.push_back({"They differ in", fmt::format("{}", fmt::join(names, " and ")), "", where, "good", {}});
+    tiles.push_back({"How sure",
+                     diagnosis::show_probability(cause.probability),
+                     "",
+                     "probability of this cause",
+                     "",
+                     {"/causes/0/probability"}});
+  }
+  const auto show = [](const RrcEstimate& at) {
+    return fmt::format("{:+.3f} +- {:.3f}", at.value_N_per_kN, 0.5 * (at.high_95_N_per_kN - at.low_95_N_per_kN));
+  };
+  tiles.push_back({"RRc on A less that on B", show(findings.difference), "N/kN", "+- is the interval of 95 %", "", {}});
+  if (findings.remaining.has_value()) {
+    tiles.push_back(
+        {"Of it with the cause", show(*findings.remaining), "N/kN", "what the cause does not take", "", {}});
+  }
+  return make_tiles(tiles);
 }
 
 Block make_parameter_table(const MachineDifference& cause) {
@@ -69,6 +111,7 @@ Page make_machine_pair_page(const PairFindings& findings) {
             fmt::format("A: {} ({}), B: {} ({})", findings.machines[0], findings.sets[0], findings.machines[1],
                         findings.sets[1])};
   Section verdict{"Verdict"};
+  verdict.blocks.push_back(make_pair_tiles(findings));
   const char* tone = findings.verdict == PairVerdict::kUnexplained ? "bad" : "good";
   verdict.blocks.push_back(make_lead(tone, capitalized(diagnosis::describe_pair_verdict(findings)) + "."));
   if (!findings.warnings.empty()) verdict.blocks.push_back(make_warnings(findings.warnings));

@@ -100,8 +100,8 @@ Table make_scatter(const RoadLoadFit& fit, const estimation::RoadLoadChecks& che
     add("scatter from session to session", fit.scatter.session_force_N, unit);
   }
   if (fit.slope.has_value()) {
-    list.rows.push_back({"slope, from the headings",
-                         fmt::format("{:.3f} +- {:.3f} % uphill in +", 100.0 * *fit.slope, 100.0 * fit.slope_sd)});
+    list.rows.push_back({"slope, from the headings", fmt::format("{:.3f} +- {:.3f} % uphill in +",
+                                                                 100.0 * *fit.slope + 0.0, 100.0 * fit.slope_sd)});
   }
   for (const estimation::SessionWind& wind : fit.winds) {
     list.rows.push_back(
@@ -124,6 +124,65 @@ Table make_checks(const estimation::RoadLoadChecks& checks) {
     table.rows.push_back({check.name, estimation::name_of(check.status), check.found, check.limit, check.clause});
   }
   return table;
+}
+
+Block make_load_tiles(const RoadLoadFit& fit) {
+  constexpr const char* kSymbols[] = {"A", "B", "C"};
+  constexpr const char* kNotes[] = {"force at standstill; +- is one standard deviation", "rise with speed",
+                                    "rise with the square of speed"};
+  const std::vector<ParameterEstimate> coefficients = estimation::list_coefficients(fit);
+  std::vector<Tile> tiles;
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    const ParameterEstimate& at = coefficients[i];
+    const std::string value = fmt::format("{:.4g}", at.value);
+    tiles.push_back({kSymbols[i],
+                     fit.on_bound[i] ? value : fmt::format("{} +- {:.2g}", value, at.sd),
+                     at.unit,
+                     fit.on_bound[i] ? "on its limit" : kNotes[i],
+                     "",
+                     {"/" + at.name, "/" + at.name + "_sd"}});
+    if (fit.on_bound[i]) tiles.back().from.pop_back();
+  }
+  constexpr double kShown_m_s = 80.0 / kKmhPerMs;
+  if (kShown_m_s > fit.low_m_s && kShown_m_s < fit.high_m_s) {
+    tiles.push_back({"At 80 km/h",
+                     fmt::format("{:.4g} +- {:.2g}", fit.force_N(kShown_m_s), fit.force_sd_N(kShown_m_s)),
+                     force_unit(fit),
+                     "at reference conditions",
+                     "",
+                     {}});
+  }
+  return make_tiles(tiles);
+}
+
+/// Speed over time of every run, each from its own start; none where the file has times through bins alone.
+Block make_run_chart(const estimation::CoastdownFile& file) {
+  constexpr std::size_t kMost = 300;  // points of a line: more than it has bends
+  Json series = Json::array();
+  for (const estimation::CoastdownRun& run : file.data.runs) {
+    ChartSeries line;
+    for (const std::size_t row : thin(run.time_s, run.speed_m_s, kMost)) {
+      line.add(run.time_s[row] - run.time_s.front(), kKmhPerMs * run.speed_m_s[row]);
+    }
+    series.push_back(line.finish(run.id, "line"));
+  }
+  return make_curves({"Time since the start of the run", "s"}, {"Speed", "km/h", true}, series);
+}
+
+/// Time through each bin over speed, per km/h of its width, since bins may have several widths.
+Block make_time_chart(const estimation::CoastdownFile& file, const RoadLoadFit& fit) {
+  Json series = Json::array();
+  for (std::size_t run = 0; run < file.data.runs.size(); ++run) {
+    ChartSeries points;
+    for (const RoadLoadPoint& at : fit.points) {
+      if (at.run != run) continue;
+      points.add(kKmhPerMs * 0.5 * (at.high_m_s + at.low_m_s),
+                 at.duration_s / (kKmhPerMs * (at.high_m_s - at.low_m_s)));
+    }
+    if (!points.x.empty()) series.push_back(points.finish(file.data.runs[run].id));
+  }
+  return make_curves({"Middle of the speed bin", "km/h"}, {"Time through the bin", "s per km/h", true}, series,
+                     "Runs that lie together say the same.");
 }
 
 /// The fitted curve with its interval over the speeds that the data cover.
@@ -191,8 +250,14 @@ Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFi
             fmt::format("{}, {}, {}", format_count(file.data.runs.size(), "run"),
                         format_count(fit.points.size(), "speed bin"),
                         file.is_trace ? "from speed traces" : "from times through bins")};
-  page.add(make_section("Result", make_road_load_tables(options, fit, checks), fit.warnings));
+  Section result = make_section("Result", make_road_load_tables(options, fit, checks), fit.warnings);
+  result.blocks.insert(result.blocks.begin(), make_load_tiles(fit));
+  page.add(std::move(result));
+  Section runs{"Runs"};
+  if (file.is_trace) runs.blocks.push_back(make_run_chart(file));
+  runs.blocks.push_back(make_time_chart(file, fit));
   page.add({"Data and fit", "", {make_force_chart(file, fit)}});
+  page.add(std::move(runs));
   page.add({"Residuals", "", {make_road_residual_chart(file, fit)}});
   page.add(make_document(estimation::make_road_load_json(file, options, fit, checks), "The fit as JSON"));
   return page;

@@ -189,6 +189,31 @@ Block make_resistance_chart(const RoadLoadProcedure& procedure) {
                      "Points: as tested, with the wind, the slope and the weather of their run.");
 }
 
+Block make_procedure_tiles(const RoadLoadProcedure& procedure) {
+  constexpr const char* kNotes[] = {"force at standstill; +- is one standard deviation", "rise with speed",
+                                    "rise with the square of speed"};
+  std::vector<Tile> tiles;
+  const std::vector<ParameterEstimate> coefficients = list_procedure_coefficients(procedure);
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    const ParameterEstimate& at = coefficients[i];
+    tiles.push_back({fmt::format("f{}", i),
+                     fmt::format("{:.4g} +- {:.2g}", at.value, at.sd),
+                     at.unit,
+                     kNotes[i],
+                     "",
+                     {"/" + at.name, "/" + at.name + "_sd"}});
+  }
+  const auto failed = std::count_if(procedure.checks.begin(), procedure.checks.end(),
+                                    [](const auto& check) { return check.status == estimation::CheckStatus::kFail; });
+  tiles.push_back({"Checks of the standard",
+                   failed == 0 ? "none failed" : fmt::format("{} failed", failed),
+                   "",
+                   "of " + format_count(procedure.checks.size(), "check"),
+                   failed == 0 ? "good" : "bad",
+                   {}});
+  return make_tiles(tiles);
+}
+
 }  // namespace
 
 std::string title_of(RoadLoadProcedureKind kind) {
@@ -298,7 +323,9 @@ std::string write_procedure_points(const RoadLoadProcedure& procedure) {
 
 Page make_procedure_page(const RoadLoadProcedure& procedure, const std::string& source) {
   Page page{"fit road-load", "Road load: " + title_of(procedure.kind), source};
-  page.add(make_section("Result", make_procedure_tables(procedure), procedure.warnings));
+  Section result = make_section("Result", make_procedure_tables(procedure), procedure.warnings);
+  result.blocks.insert(result.blocks.begin(), make_procedure_tiles(procedure));
+  page.add(std::move(result));
   page.add({"Data and fit", "", {make_resistance_chart(procedure)}});
   page.add(make_document(make_procedure_json(procedure), "The result as JSON"));
   return page;

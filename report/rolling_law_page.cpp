@@ -181,6 +181,29 @@ std::vector<std::string> collect_warnings(const estimation::RollingTest& test, c
   return warnings;
 }
 
+/// Rolling resistance at the standard reference condition, and its coefficient.
+std::vector<Tile> make_reference_tiles(const ForceEstimate& force, const estimation::ReferenceCondition& condition,
+                                       int freedom) {
+  Tile loss{"Rolling resistance there",
+            fmt::format("{:.2f}", force.value_N),
+            "N",
+            "",
+            "",
+            {"/reference/rolling_resistance/value_N"}};
+  if (freedom > 0) {
+    loss.value += fmt::format(" +- {:.2f}", estimation::calc_student_reach(freedom) * force.sd_N);
+    loss.note = "+- is the interval of 95 %";
+    loss.from.clear();
+  }
+  return {{"RRc at the reference condition",
+           fmt::format("{:.3f}", 1e3 * force.value_N / condition.load_N),
+           "N/kN",
+           describe_reference(condition),
+           "",
+           {"/reference/rrc_N_per_kN"}},
+          std::move(loss)};
+}
+
 }  // namespace
 
 std::vector<Table> make_j2452_tables(const J2452Fit& fit, const std::optional<J2452Reference>& reference) {
@@ -205,7 +228,21 @@ Page make_j2452_page(const estimation::RollingTest& test, const J2452Fit& fit,
                      const std::optional<J2452Reference>& reference) {
   Page page{"fit j2452", "Rolling resistance by SAE J2452",
             fmt::format("{}{}", test.tire.empty() ? "" : test.tire + ", ", format_count(fit.points.size(), "point"))};
-  page.add(make_section("Result", make_j2452_tables(fit, reference), collect_warnings(test, fit.warnings)));
+  Section result = make_section("Result", make_j2452_tables(fit, reference), collect_warnings(test, fit.warnings));
+  std::vector<Tile> tiles;
+  if (reference.has_value()) {
+    tiles = make_reference_tiles(reference->force, reference->condition, fit.statistics.freedom);
+    tiles.push_back({"Mean equivalent rolling force",
+                     fmt::format("{:.2f}", reference->combined.value_N),
+                     "N",
+                     "SMERF: 0.55 of the urban and 0.45 of the highway cycle",
+                     "",
+                     {"/reference/smerf/value_N"}});
+  }
+  tiles.push_back({"Pressure exponent", fmt::format("{:.3f}", fit.law.alpha), "", "alpha of the law", "", {}});
+  tiles.push_back({"Load exponent", fmt::format("{:.3f}", fit.law.beta), "", "beta of the law", "", {}});
+  result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
+  page.add(std::move(result));
   page.add({"Points and law", "", {make_speed_chart(fit)}});
   page.add({"Law over load and pressure", "", {make_load_chart(fit)}});
   page.add({"Residuals", "", {make_residual_chart_of(fit.points, true)}});
@@ -238,7 +275,19 @@ Page make_multipoint_page(const estimation::RollingTest& test, const MultipointF
   Page page{"fit j1269", "Rolling resistance by SAE J1269",
             fmt::format("{}{}, {:.1f} km/h", test.tire.empty() ? "" : test.tire + ", ",
                         format_count(fit.points.size(), "point"), kKmhPerMs * fit.speed_m_s)};
-  page.add(make_section("Result", make_multipoint_tables(fit, reference), collect_warnings(test, fit.warnings)));
+  Section result = make_section("Result", make_multipoint_tables(fit, reference), collect_warnings(test, fit.warnings));
+  std::vector<Tile> tiles;
+  if (reference.has_value()) {
+    tiles = make_reference_tiles(reference->force, reference->condition, fit.statistics.freedom);
+  }
+  tiles.push_back({"RRc, mean of the points",
+                   fmt::format("{:.3f}", 1e3 * fit.mean_coefficient),
+                   "N/kN",
+                   format_count(fit.points.size(), "point"),
+                   "",
+                   {"/mean_rrc_N_per_kN"}});
+  result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
+  page.add(std::move(result));
   page.add({"Points and law", "", {make_multipoint_chart(fit)}});
   page.add({"Residuals", "", {make_residual_chart_of(fit.points, false)}});
   page.add(make_document(estimation::make_multipoint_json(test, fit, reference), "The fit as JSON"));

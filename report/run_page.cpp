@@ -58,11 +58,23 @@ Section make_over_time(const scenarios::RunSpec& spec, const scenarios::Outcome&
   return section;
 }
 
+Section make_result(const scenarios::Outcome& outcome) {
+  Section section = report::make_section("Result", outcome.sheet.list_tables(), outcome.warnings);
+  std::vector<Tile> tiles;
+  for (const scenarios::ShownHeadline& headline : outcome.sheet.headlines) {
+    tiles.push_back({headline.label, headline.value, headline.unit, headline.note, "", {}});
+    for (const std::string& key : headline.keys) tiles.back().from.push_back("/result/" + key);
+  }
+  if (!tiles.empty()) section.blocks.insert(section.blocks.begin(), make_tiles(tiles));
+  return section;
+}
+
 }  // namespace
 
 Page make_run_page(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
   Page page{"run", spec.scenario->text.summary, make_subtitle(spec), {}, find_view(outcome.recording)};
-  page.add(make_section("Result", outcome.sheet.list_tables(), outcome.warnings));
+  page.add(make_result(outcome));
+  page.add(make_coast_figures(outcome.result, outcome.recording));
   page.add(make_run_figures(outcome.result));
   page.add(make_over_time(spec, outcome));
   page.add({"Energy balance", "", {make_energy(outcome.recording.audit)}});

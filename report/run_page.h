@@ -27,6 +27,9 @@ std::optional<Block> make_cross_section(const scenarios::RunSpec& spec, const si
 /// cycle, force over speed or load. No blocks where it has nothing of these.
 Section make_run_figures(const Json& result);
 
+/// The coastdowns of `result` one over the other, and their times through bins of speed; no blocks where it has none.
+Section make_coast_figures(const Json& result, const sim::Recording<double>& recording);
+
 /// Phases of a recording as the page has them.
 Json make_phases(const std::vector<sim::PhaseSpan>& phases);
 

@@ -7,7 +7,7 @@
 namespace rollrig::report {
 namespace {
 
-constexpr std::size_t kKeptOfStretch = 5;  // first, last, least, greatest, a gap
+constexpr std::size_t kKeptOfStretch = 7;  // first, last, least, greatest, a gap, both sides of the greatest step
 
 /// Adds what a stretch of rows [first, last) keeps.
 void keep_of_stretch(const std::vector<double>& values, std::size_t first, std::size_t last,
@@ -16,10 +16,16 @@ void keep_of_stretch(const std::vector<double>& values, std::size_t first, std::
   std::size_t least = last;
   std::size_t greatest = last;
   std::size_t gap = last;
+  std::size_t step = last;  // the row after the greatest step
+  double greatest_step = 0.0;
   for (std::size_t i = first; i < last; ++i) {
     if (!std::isfinite(values[i])) {
       if (gap == last) gap = i;
       continue;
+    }
+    if (i > 0 && std::abs(values[i] - values[i - 1]) > greatest_step) {
+      greatest_step = std::abs(values[i] - values[i - 1]);
+      step = i;
     }
     if (least == last || values[i] < values[least]) least = i;
     if (greatest == last || values[i] > values[greatest]) greatest = i;
@@ -27,6 +33,7 @@ void keep_of_stretch(const std::vector<double>& values, std::size_t first, std::
   for (const std::size_t i : {least, greatest, gap}) {
     if (i != last) own.push_back(i);
   }
+  if (step != last) own.insert(own.end(), {step - 1, step});
   std::sort(own.begin(), own.end());
   own.erase(std::unique(own.begin(), own.end()), own.end());
   kept.insert(kept.end(), own.begin(), own.end());

@@ -1,5 +1,7 @@
 #include "report/run_page.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -85,13 +87,119 @@ struct Panel {
   std::string label;
   std::string unit;
   Json series = Json::array();
+  std::vector<std::vector<double>> values = {};  // of each series
 };
+
+/// Rows as a line is drawn through them. A row is a mean over its sample. Where a phase begins with a jump and with
+/// shorter samples, the straight line from the row before would be a ramp that nothing has: the value before is held.
+struct DrawnRows {
+  std::vector<double> time_s;
+  std::vector<double> values;
+};
+
+DrawnRows hold_to_jumps(const sim::Recording<double>& recording, const std::vector<double>& values) {
+  constexpr double kShorter = 3.0;  // times: samples of another interval
+  constexpr double kJump = 3.0;     // times the change before
+  DrawnRows rows;
+  const std::vector<double>& time_s = recording.time_s;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    if (i >= 2 && i + 1 < time_s.size()) {
+      const double before_s = time_s[i] - time_s[i - 1];
+      const double after_s = time_s[i + 1] - time_s[i];
+      const bool is_jump = std::abs(values[i] - values[i - 1]) > kJump * std::abs(values[i - 1] - values[i - 2]);
+      if (before_s > kShorter * after_s && is_jump) {
+        rows.time_s.push_back(time_s[i] - after_s);
+        rows.values.push_back(values[i - 1]);
+      }
+    }
+    rows.time_s.push_back(time_s[i]);
+    rows.values.push_back(values[i]);
+  }
+  return rows;
+}
+
+/// Rows that set the scale of a drum's panels: those in which the tire carries its load or the speed is steady, where
+/// readings are taken. Run-up and the moment of a change of load reach far beyond and would flatten the rest.
+std::vector<bool> find_scale_rows(const sim::Recording<double>& recording) {
+  constexpr double kLoaded = 0.5;        // of the largest load
+  constexpr double kSteady_m_s2 = 0.02;  // of a change of speed
+  constexpr std::size_t kSettled = 3;    // rows after a change
+  const std::vector<double>& load_N = recording.channel(quantities::kLoad);
+  const std::vector<double>& speed_m_s = recording.channel(quantities::kSpeed);
+  const double most_N = *std::max_element(load_N.begin(), load_N.end());
+  std::vector<bool> counts(load_N.size(), false);
+  std::size_t since = 0;
+  for (std::size_t i = 1; i < load_N.size(); ++i) {
+    const double change_m_s2 =
+        std::abs(speed_m_s[i] - speed_m_s[i - 1]) / (recording.time_s[i] - recording.time_s[i - 1]);
+    const bool is_loaded = load_N[i] > kLoaded * most_N;
+    const bool is_changed = change_m_s2 > kSteady_m_s2 || is_loaded != (load_N[i - 1] > kLoaded * most_N);
+    since = is_changed ? 0 : since + 1;
+    counts[i] = since >= kSettled && std::abs(speed_m_s[i]) > 0.05;
+  }
+  return counts;
+}
+
+/// Least and greatest value of a panel over the rows that set its scale; nothing where they are nearly all of it.
+Json find_scale(const Panel& panel, const std::vector<bool>& counts) {
+  constexpr double kBeyond = 1.25;  // times the scale: what is less far outside is simply shown
+  double low = 1e300, high = -1e300, all_low = 1e300, all_high = -1e300;
+  for (const std::vector<double>& values : panel.values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!std::isfinite(values[i])) continue;
+      all_low = std::min(all_low, values[i]);
+      all_high = std::max(all_high, values[i]);
+      if (!counts[i]) continue;
+      low = std::min(low, values[i]);
+      high = std::max(high, values[i]);
+    }
+  }
+  if (!(high > low) || all_high - all_low < kBeyond * (high - low)) return nullptr;
+  return Json::array({rounded(low), rounded(high)});
+}
+
+bool is_all_zero(const Panel& panel) {
+  return std::all_of(panel.values.begin(), panel.values.end(), [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0; });
+  });
+}
+
+/// Whether two panels of one unit show the same lines.
+bool are_same(const Panel& a, const Panel& b) {
+  constexpr double kSame = 1e-6;  // relative: what six digits show
+  if (a.unit != b.unit || a.values.size() != b.values.size()) return false;
+  for (std::size_t s = 0; s < a.values.size(); ++s) {
+    for (std::size_t i = 0; i < a.values[s].size(); ++i) {
+      if (std::abs(a.values[s][i] - b.values[s][i]) > kSame * std::abs(a.values[s][i])) return false;
+    }
+  }
+  return true;
+}
+
+/// Takes away panels that are zero throughout or as one before. Returns a sentence for each.
+std::string drop_empty_panels(std::vector<Panel>& panels) {
+  std::string text;
+  std::vector<Panel> kept;
+  for (Panel& panel : panels) {
+    const auto same =
+        std::find_if(kept.begin(), kept.end(), [&panel](const Panel& one) { return are_same(one, panel); });
+    if (is_all_zero(panel)) {
+      text += fmt::format(" {} is 0 throughout.", panel.label);
+    } else if (same != kept.end()) {
+      text += fmt::format(" {} is the same as {}.", panel.label, plain_name(same->label));
+    } else {
+      kept.push_back(std::move(panel));
+    }
+  }
+  panels = std::move(kept);
+  return text;
+}
 
 Panel& find_panel(std::vector<Panel>& panels, const Place& place, const std::string& unit) {
   for (Panel& panel : panels) {
     if (panel.label == place.panel && panel.unit == unit) return panel;
   }
-  panels.push_back({place.order, place.panel, unit, Json::array()});
+  panels.push_back({place.order, place.panel, unit});
   return panels.back();
 }
 
@@ -129,12 +237,18 @@ Block make_times(const sim::Recording<double>& recording) {
     const std::string channel = recording.channels[i].quantity.header();
     Panel& panel = find_panel(panels, *place, shown_unit(channel));
     const std::vector<double> values = in_unit_of(channel, recording.values[i]);
-    Json series = make_series(place->series, recording.time_s, values);
+    const DrawnRows rows = hold_to_jumps(recording, values);
+    Json series = make_series(place->series, rows.time_s, rows.values);
     series["phases"] = summarize_phases(recording, values);
     if (place->is_read) series["recorded"] = make_recorded(recording.time_s, values);
     panel.series.push_back(std::move(series));
+    panel.values.push_back(values);
   }
   std::stable_sort(panels.begin(), panels.end(), [](const Panel& a, const Panel& b) { return a.order < b.order; });
+  const std::string dropped = drop_empty_panels(panels);
+  const bool is_drum = std::any_of(recording.channels.begin(), recording.channels.end(),
+                                   [](const auto& channel) { return channel.quantity == quantities::kDrumTorque; });
+  const std::vector<bool> counts = is_drum ? find_scale_rows(recording) : std::vector<bool>{};
   const PageClock view = find_view(recording);
   Block block = {
       {"type", "times"},
@@ -143,10 +257,14 @@ Block make_times(const sim::Recording<double>& recording) {
       {"rows", make_row_times(recording.time_s)},
       {"panels", Json::array()},
       {"caption",
-       "Click on the chart to move the time of slider and animation. The bar below the chart, or Ctrl and the "
-       "mouse wheel, zoom."}};
+       std::string(
+           "Click on the chart to move the time of slider and animation. The bar below the chart, or Ctrl and the "
+           "mouse wheel, zoom.") +
+           dropped}};
   for (Panel& panel : panels) {
+    const Json scale = is_drum ? find_scale(panel, counts) : Json();
     block["panels"].push_back({{"label", panel.label}, {"unit", panel.unit}, {"series", std::move(panel.series)}});
+    if (!scale.is_null()) block["panels"].back()["scale"] = scale;
   }
   return block;
 }

@@ -16,14 +16,6 @@ namespace {
 using estimation::Estimate;
 using estimation::TireFit;
 
-/// What the two-step regression says of a parameter, in the unit of its key.
-std::optional<double> find_two_step(const Json& two_step, const std::string& key) {
-  const std::string last = last_part(key);
-  if (key.find("load_map") != std::string::npos || !two_step.contains(last) || two_step[last].is_null())
-    return std::nullopt;
-  return two_step[last].get<double>();
-}
-
 /// The key of a number without its table, where that goes without saying, and without its unit.
 std::string shorten_key(std::string key) {
   for (const char* table : {"rolling_resistance.", "thermal."}) boost::algorithm::erase_first(key, table);
@@ -89,26 +81,59 @@ Table make_two_step(const TireFit& fit) {
   return {"", {}, {{"two-step regression", fmt::format("{} (start of the fit)", fmt::join(numbers, ", "))}}};
 }
 
-/// Each parameter in percent of its value: the interval, and the two-step regression of the source in it.
-Block make_intervals(const TireFit& fit, const Json& two_steps) {
-  Json names = Json::array();
-  Json two_step = Json::array();
-  Json low = Json::array();
-  Json high = Json::array();
+/// Each parameter beside its prior, with their intervals of 95 %.
+Block make_forest(const TireFit& fit) {
+  constexpr double kWide = 1.959963984540054;  // of a normal interval of 95 %
+  Json rows = Json::array();
   for (const Estimate& at : fit.estimates) {
-    if (at.nuisance || at.value == 0.0) continue;
-    const double half_percent = std::abs(100.0 * (at.upper_95() - at.value) / at.value);
-    const std::optional<double> other = find_two_step(two_steps, at.key);
-    names.push_back(name_without_unit(last_part(estimation::find_file_key(at.key))));
-    two_step.push_back(other.has_value() ? rounded(100.0 * (*other - at.value) / at.value) : Json(nullptr));
-    low.push_back(rounded(-half_percent));
-    high.push_back(rounded(half_percent));
+    const std::string key = estimation::find_file_key(at.key);
+    Json row = {{"name", shorten_key(key)},
+                {"unit", shown_unit(last_part(key))},
+                {"value", rounded(at.value)},
+                {"low", rounded(at.lower_95())},
+                {"high", rounded(at.upper_95())}};
+    if (at.prior.has_value()) {
+      row["prior"] = {{"value", rounded(at.prior->value)},
+                      {"low", rounded(at.prior->value - kWide * at.prior->sd)},
+                      {"high", rounded(at.prior->value + kWide * at.prior->sd)}};
+    }
+    rows.push_back(std::move(row));
   }
-  const char* caption = two_steps.is_null()
-                            ? "95 % interval of each parameter (whiskers)"
-                            : "95 % interval of each parameter (whiskers) and two-step regression less fit (bars)";
-  return make_bars({caption, "% of the value"}, names,
-                   Json::array({{{"name", "two-step"}, {"values", two_step}, {"low", low}, {"high", high}}}));
+  return {{"type", "forest"},
+          {"label", "Estimates beside what was known before"},
+          {"names", {"estimate", "before (file or class)"}},
+          {"rows", rows},
+          {"caption",
+           "Lines: intervals of 95 %. All in percent of the estimate from the estimate; a number without a "
+           "second line was not known before."}};
+}
+
+std::string show_uncertain(const estimation::Uncertain& at, double unit, const char* digits) {
+  const auto show = [&](double value) { return fmt::format(fmt::runtime(digits), value / unit); };
+  return show(at.value) + " +- " + show(at.sd);
+}
+
+Block make_steady_tiles(const TireFit& fit) {
+  const estimation::SteadyTire& steady = fit.steady;
+  const auto from = [](const char* key) -> std::vector<std::string> {
+    return {fmt::format("/steady/{}/value", key), fmt::format("/steady/{}/sd", key)};
+  };
+  return make_tiles({{"RRc at 80 km/h and 25 degC", show_uncertain(steady.rrc, 1e-3, "{:.3f}"), "N/kN",
+                      fmt::format("warm, at {:.0f} N and {:.0f} kPa; +- is one standard uncertainty", steady.at.load_N,
+                                  unit_of_key("pressure_kPa").from_si(steady.at.pressure_Pa)),
+                      "", from("rrc_N_per_kN")},
+                     {"Falls with temperature by", show_uncertain(steady.fall_per_K, 1e-2, "{:.2f}"), "%/K",
+                      fmt::format("of the loss, at {:.0f} degC, the temperature of the warm tire",
+                                  unit_of_key("temperature_degC").from_si(steady.at.temperature_K)),
+                      "", from("fall_percent_per_degC")},
+                     {"Warm-up time constant", show_uncertain(steady.time_constant_s, 60.0, "{:.1f}"), "min",
+                      "at 80 km/h", "", from("time_constant_min")},
+                     {"What is left",
+                      fmt::format("{:.2f}", std::sqrt(fit.chi2_per_sample)),
+                      "",
+                      "in units of the sensors' noise; 1 where the model lacks nothing",
+                      "",
+                      {}}});
 }
 
 Block make_correlations(const TireFit& fit) {
@@ -153,11 +178,16 @@ Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& 
       fmt::format("From tire {}, rig {}, {}", set.tire.name, set.rig->name, format_count(set.runs.size(), "run"))};
   const Json document = estimation::make_fit_json(set, fit);
   Section result = make_section("Result", make_tire_fit_tables(fit), fit.warnings);
-  result.blocks.push_back(make_intervals(fit, document["two_step"]));
+  result.blocks.insert(result.blocks.begin(), {make_steady_tiles(fit), make_forest(fit)});
   page.add(std::move(result));
   const diagnosis::PreparedSet prepared(set);
-  const SimulatedSet fitted = simulate_set(prepared, "fit", make_fitted_context(prepared.source(), fit), {});
-  Section runs{"Data, fit and residuals", "Sensor offsets are not taken off: a residual may lie beside zero by one."};
+  SimulatedSet fitted = simulate_set(prepared, "fit", make_fitted_context(prepared.source(), fit), {});
+  for (const diagnosis::Series& series : prepared.series()) {
+    const auto offset = fit.offsets_SI.find({series.run, prepared.channels()[series.channel]});
+    if (offset == fit.offsets_SI.end() || fitted.values.empty()) continue;
+    for (std::size_t k = 0; k < series.size(); ++k) fitted.values[series.first_residual + k] += offset->second;
+  }
+  Section runs{"Data, fit and residuals", "The fit is what the sensors would read, their fitted offsets included."};
   for (std::size_t run = 0; run < prepared.runs().size(); ++run) {
     runs.blocks.push_back(make_comparison(prepared, run, {fitted}));
   }

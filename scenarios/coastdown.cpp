@@ -59,6 +59,10 @@ struct Results {
                      "at speeds of 20 to 130 km/h"},
           forces);
     visit(ResultList{"coastdowns", "Coastdowns", "each coastdown"}, coastdowns);
+    visit(Headline{"A", "{A_N} +- {A_N_sd}", "force at standstill; +- is one standard deviation"});
+    visit(Headline{"B", "{B_N_per_km_h} +- {B_N_per_km_h_sd}", "rise with speed"});
+    visit(Headline{"C", "{C_N_per_km_h2} +- {C_N_per_km_h2_sd}", "rise with the square of speed"});
+    visit(Headline{"First coastdown", "{coastdowns.first.duration_s}", "{coastdowns.first.name}"});
   }
 };
 

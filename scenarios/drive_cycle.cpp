@@ -59,6 +59,12 @@ struct Results {
     visit(ResultList{"sections", "Rolling resistance of one tire, by model and by ISO coefficient; of all tires",
                      "each cycle", "Liner of that tire; energy of the whole vehicle, at its hubs and its battery"},
           sections, total);
+    visit(Headline{"Consumption", "{consumption_Wh_per_km}", "out of the battery, {cycle}"});
+    visit(Headline{"Range", "{range_km}"});
+    visit(Headline{"Model above the ISO coefficient", "{sections.first.difference_percent}",
+                   "rolling resistance of one tire in {sections.first.name}"});
+    visit(Headline{"Lost by the tires", "{sections.first.vehicle_rr_energy_Wh}",
+                   "{sections.first.name}, {sections.first.distance_km}"});
   }
 };
 

@@ -85,6 +85,10 @@ struct Results {
                  "the same by the tires' ISO coefficients, with the loss that their skim tests subtracted; null where "
                  "one has none"},
           highway_iso_J);
+    visit(Headline{"Within the criterion", "{within_criterion}", "after {iterations} corrections"});
+    visit(Headline{"Largest difference to the road", "{largest_difference_N}", "over 20 to 130 km/h"});
+    visit(Headline{"Set force at standstill", "{set_A_N}", "road load: {target_A_N}"});
+    visit(Headline{"Set force, with speed squared", "{set_C_N_per_km_h2}", "road load: {target_C_N_per_km_h2}"});
   }
 };
 

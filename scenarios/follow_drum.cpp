@@ -82,6 +82,11 @@ struct Results {
     visit(ResultList{"stretches", "Stretches of constant load and speed",
                      "means over the last minute of each stretch of constant load and speed"},
           stretches);
+    visit(Headline{"Force of the last stretch", "{stretches.last.force_N}",
+                   "at {stretches.last.load_N} and {stretches.last.speed_km_h}"});
+    visit(Headline{"Highest liner temperature", "{liner_temperature_max_degC}"});
+    visit(Headline{"Pressure at the end", "{cavity_pressure_end_kPa}"});
+    visit(Headline{"Distance", "{distance_km}", "in {duration_s}"});
   }
 };
 

@@ -57,6 +57,7 @@ struct Results {
   std::optional<std::string> label_class;
   std::optional<double> label_probability;
   std::optional<double> approval_stage;
+  std::string tire_class;  // of a tire with a label class
   std::string why_no_label;
   double pressure_set_Pa = 0.0;
   double pressure_verified_Pa = 0.0;
@@ -100,9 +101,25 @@ struct Results {
     visit_label_lines(visit);
     visit(
         JointLine{"RRc of all cycles", "{rrc_cycles_mean_N_per_kN} +- {rrc_cycles_sd_N_per_kN} (standard deviation)"});
+    visit_headlines(visit);
   }
 
  private:
+  void visit_headlines(ResultSheet& visit) const {
+    const char* label = "RRc at 25 degC, 2 m drum";
+    if (uncertainty.has_value()) {
+      visit(Headline{label, "{rrc_25degC_2m_N_per_kN} +- {rrc_uncertainty_N_per_kN}",
+                     "+- is the expanded uncertainty (k = 2) from the torque sensor"});
+    } else {
+      visit(Headline{label, "{rrc_25degC_2m_N_per_kN}", "by the {method} method"});
+    }
+    visit(Headline{"EU label class", "{label_class}",
+                   "tire of class " + tire_class + (label_probability ? ", probability {label_probability}" : "")});
+    visit(Headline{"Rolling resistance", "{rolling_resistance_N}", "at {load_N} and {speed_km_h}"});
+    visit(Headline{"Parasitic loss (skim)", "{parasitic_N}", "at the surface; subtracted from the loss under load"});
+    visit(Headline{"Liner temperature", "{liner_temperature_degC}", "mean of the measurement"});
+  }
+
   void visit_uncertainty(ResultSheet& visit) const {
     const auto read = [this](double RrcUncertainty::*part) {
       return uncertainty.has_value() ? std::optional((*uncertainty).*part) : std::nullopt;
@@ -230,6 +247,7 @@ void add_label(const Settings& settings, const RunSpec& spec, Results& results) 
   const double rrc = results.corrected_rrc;
   const std::size_t place = models::find_label_class(service.tire_class, rrc);
   results.label_class = models::kLabelClasses[place];
+  results.tire_class = name_of(service.tire_class);
   if (results.uncertainty.has_value()) {
     constexpr double kCoverage = 2.0;
     const double sd = results.uncertainty->offset_canceled / kCoverage;

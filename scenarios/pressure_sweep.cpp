@@ -38,6 +38,9 @@ struct Results {
                  "F_r at the first pressure over that at the second, as in (4.1)"}
               .or_left_out(),
           first_to_second);
+    visit(Headline{"RRc at {cycles.first.pressure_set_kPa}", "{cycles.first.rrc_N_per_kN}", "first pressure"});
+    visit(Headline{"RRc at {cycles.last.pressure_set_kPa}", "{cycles.last.rrc_N_per_kN}", "last pressure"});
+    visit(Headline{"Pressure exponent", "{steady_state_pressure_exponent}", "F_r goes with pressure to this power"});
   }
 };
 

@@ -86,6 +86,14 @@ struct Results {
                      "each section", "Liner of that tire; energy of the whole vehicle, at its hubs and its battery"},
           sections, total);
     economy.visit_cycles(visit);
+    visit(
+        Headline{"Consumption", "{economy.last.dc_consumption_Wh_per_km}", "{economy.last.name}, out of the battery"});
+    visit(Headline{"Range", "{economy.last.range_km}", "{economy.last.name}"});
+    visit(
+        Headline{"First city cycle above later ones", "{first_city_excess_percent}", "battery energy: the cold start"});
+    visit(Headline{"Tires' share of the cold start", "{first_city_tire_share_percent}"});
+    visit(Headline{"Model above the ISO coefficient", "{sections.first.difference_percent}",
+                   "rolling resistance of one tire in {sections.first.name}, the coldest section"});
   }
 };
 

@@ -74,6 +74,11 @@ struct Results {
     visit(Result{"smerf_N", "  0.55 UDDS + 0.45 HWFET", ".2f", "standard mean equivalent rolling force (SMERF)"}
               .or_left_out(),
           of_reference([](const auto& r) { return r.combined.value_N; }));
+    visit(Headline{"RRc at the reference condition", "{reference_rrc_N_per_kN}",
+                   "{reference_load_N}, {reference_pressure_kPa}, 80 km/h"});
+    visit(Headline{"Mean equivalent rolling force", "{smerf_N}", "SMERF: 0.55 UDDS + 0.45 HWFET"});
+    visit(Headline{"Pressure exponent", "{pressure_exponent}", "alpha of the law of SAE J2452"});
+    visit(Headline{"Load exponent", "{load_exponent}", "beta of the law"});
   }
 };
 

@@ -34,6 +34,11 @@ class DrumResiduals {
   const std::vector<ComparedSeries>& series() const { return series_; }
   std::vector<double> start() const;
 
+  /// Offset of the sensor of a series.
+  double calc_offset_SI(const ComparedSeries& series, const double* unknowns) const {
+    return unknowns[parameters_.size() + series.offset] * offset_sd_[series.offset];
+  }
+
   /// `unknowns`: parameters in SI units, then offsets in their standard deviations. `jacobian`, row-major,
   /// may be null.
   void evaluate(const double* unknowns, double* residuals, double* jacobian) const;

@@ -246,6 +246,10 @@ TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& 
   const Eigen::MatrixXd covariance = find_covariance(*residuals, found);
   put_estimates(set, unknowns, found, covariance, fit);
   fit.at_speeds = find_at_speeds(set, unknowns, found, covariance);
+  fit.steady = find_steady_tire(set, unknowns, found, covariance);
+  for (const ComparedSeries& series : residuals->series()) {
+    fit.offsets_SI[{series.run, series.channel}] = residuals->calc_offset_SI(series, found.data());
+  }
   write_notes(set, fit);
   add_warnings(set, fit);
   return fit;

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "estimation/tire_fit/at_speeds.h"
@@ -50,6 +51,9 @@ struct TireFit {
   std::vector<std::vector<double>> correlation;  // of the estimates
   std::vector<ChannelFit> channels;
   std::vector<AtSpeed> at_speeds;
+  SteadyTire steady;
+  /// What the sensors read too much, by run and channel in SI; those that are fitted.
+  std::map<std::pair<std::size_t, Quantity>, double> offsets_SI;
   double chi2_per_sample = 0.0;
   std::optional<TwoStepEstimate> two_step;   // of a law that has A0 to B1
   models::TireFile tire;                     // with the estimates and their uncertainties put in

@@ -26,6 +26,21 @@ Json make_at_speeds_json(const std::vector<AtSpeed>& speeds) {
   return json;
 }
 
+Json make_steady_json(const SteadyTire& steady) {
+  const auto number = [](const Uncertain& at, double unit) -> Json {
+    return {{"value", at.value / unit}, {"sd", at.sd / unit}};
+  };
+  return {{"speed_km_h", unit_of_key("speed_km_h").from_si(steady.at.speed_m_s)},
+          {"ambient_degC", unit_of_key("ambient_degC").from_si(steady.ambient_K)},
+          {"load_N", steady.at.load_N},
+          {"pressure_kPa", unit_of_key("pressure_kPa").from_si(steady.at.pressure_Pa)},
+          {"temperature_degC", unit_of_key("temperature_degC").from_si(steady.at.temperature_K)},
+          {"loss_N", number(steady.loss_N, 1.0)},
+          {"rrc_N_per_kN", number(steady.rrc, 1e-3)},
+          {"fall_percent_per_degC", number(steady.fall_per_K, 1e-2)},
+          {"time_constant_min", number(steady.time_constant_s, 60.0)}};
+}
+
 }  // namespace
 
 std::vector<ParameterEstimate> list_parameters(const TireFit& fit) {
@@ -63,6 +78,7 @@ Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) 
   }
   json["correlation"] = fit.correlation;
   json["at_speeds"] = make_at_speeds_json(fit.at_speeds);
+  json["steady"] = make_steady_json(fit.steady);
   json["chi2_per_sample"] = fit.chi2_per_sample;
   json["channels"] = Json::array();
   for (const ChannelFit& channel : fit.channels) {

@@ -57,7 +57,7 @@ void ResultSheet::add(const Result& result, const Json& value, const std::string
   const std::string unit = unit_of_key(result.key).symbol;
   infos.push_back({result.key, result.doc});
   if (!(result.left_out && value.is_null())) json[result.key] = value;
-  shown_[result.key] = {text, unit};
+  shown_[result.key] = {text, unit, result.key};
   if (!text.empty()) lines.push_back({result.label, join(text, unit), result.key});
   for (const Column column : {Column::kFirst, Column::kSecond}) {
     if (result.column != column && result.column != Column::kBoth) continue;
@@ -67,24 +67,45 @@ void ResultSheet::add(const Result& result, const Json& value, const std::string
   }
 }
 
-void ResultSheet::operator()(const JointLine& line) {
-  const auto key_at = [&line](std::size_t open) {
-    return line.text.substr(open + 1, line.text.find('}', open) - open - 1);
-  };
-  std::string text = line.text.substr(0, line.text.find('{'));
-  bool is_whole = true;
-  for (std::size_t open = line.text.find('{'); open != std::string::npos;) {
+ResultSheet::Filled ResultSheet::fill(const std::string& text, bool with_last_unit) const {
+  const auto key_at = [&text](std::size_t open) { return text.substr(open + 1, text.find('}', open) - open - 1); };
+  Filled filled{text.substr(0, text.find('{')), {}, {}, {}};
+  for (std::size_t open = text.find('{'); open != std::string::npos;) {
     const std::string key = key_at(open);
     const Shown& shown = shown_.at(key);
     const std::size_t after = open + key.size() + 2;
-    open = line.text.find('{', after);
+    open = text.find('{', after);
     const bool is_shared = open != std::string::npos && shown_.at(key_at(open)).unit == shown.unit;
-    text += (is_shared ? shown.text : join(shown.text, shown.unit)) + line.text.substr(after, open - after);
-    is_whole = is_whole && !shown.text.empty();
-    lines.erase(std::remove_if(lines.begin(), lines.end(), [&key](const ResultLine& own) { return own.key == key; }),
-                lines.end());
+    const bool is_last = after == text.size() && !with_last_unit;
+    filled.text +=
+        (is_shared || is_last ? shown.text : join(shown.text, shown.unit)) + text.substr(after, open - after);
+    if (is_last) filled.unit = shown.unit;
+    filled.is_whole = filled.is_whole && !shown.text.empty();
+    filled.used.push_back(&shown);
+    filled.keys.push_back(key);
   }
-  if (is_whole) lines.push_back({line.label, text});
+  return filled;
+}
+
+void ResultSheet::operator()(const JointLine& line) {
+  const Filled filled = fill(line.text, true);
+  lines.erase(std::remove_if(lines.begin(), lines.end(),
+                             [&filled](const ResultLine& own) {
+                               return std::find(filled.keys.begin(), filled.keys.end(), own.key) != filled.keys.end();
+                             }),
+              lines.end());
+  if (filled.is_whole) lines.push_back({line.label, filled.text});
+}
+
+void ResultSheet::operator()(const Headline& headline) {
+  const Filled label = fill(headline.label, true);
+  const Filled value = fill(headline.text, false);
+  const Filled note = fill(headline.note, true);
+  if (!value.keys.empty() && label.keys.empty()) headline_keys.emplace_back(value.keys.front(), headline.label);
+  if (!value.is_whole) return;
+  ShownHeadline shown{label.text, value.text, value.unit, note.is_whole ? note.text : "", {}};
+  for (const Shown* one : value.used) shown.keys.push_back(one->place);
+  headlines.push_back(std::move(shown));
 }
 
 void ResultSheet::add(const ResultList& list, const ResultSheet& declared, const std::vector<ResultSheet>& sheets,
@@ -93,11 +114,23 @@ void ResultSheet::add(const ResultList& list, const ResultSheet& declared, const
   for (const ResultInfo& info : declared.infos) infos.push_back({fmt::format("{}[].{}", list.key, info.key), info.doc});
   if (!(list.left_out && sheets.empty())) json[list.key] = Json::array();
   for (std::size_t i = 0; i + (has_total ? 1 : 0) < sheets.size(); ++i) json[list.key].push_back(sheets[i].json);
+  const std::size_t records = sheets.size() - (has_total ? 1 : 0);
+  show_record(list.key, "first", 0, records > 0 ? sheets.front() : declared);
+  show_record(list.key, "last", records > 0 ? records - 1 : 0, records > 0 ? sheets[records - 1] : declared);
   for (const std::size_t at : {0U, 1U}) {
     if (sheets.empty() || declared.headings_[at].empty()) continue;
     Table table{at == 0 ? list.title : list.second_title, declared.headings_[at], {}};
     for (const ResultSheet& sheet : sheets) table.rows.push_back(sheet.cells_[at]);
     tables.push_back(std::move(table));
+  }
+}
+
+void ResultSheet::show_record(const std::string& list, const char* which, std::size_t place,
+                              const ResultSheet& record) {
+  const bool is_there = json.contains(list) && !json[list].empty();
+  for (const auto& [key, shown] : record.shown_) {
+    shown_[fmt::format("{}.{}.{}", list, which, key)] = {is_there ? shown.text : "", shown.unit,
+                                                         fmt::format("{}/{}/{}", list, place, shown.place)};
   }
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/core/columns.h"
@@ -58,6 +59,24 @@ struct JointLine {
   std::string text;
 };
 
+/// What the run says at a glance, of results declared before it: `text` as of a JointLine, its unit apart where there
+/// is but one. Of a list, "{cycles.first.rrc_N_per_kN}" is of its first record, "last" of its last. None where a value
+/// of `text` is missing; a note that lacks one is left out alone.
+struct Headline {
+  std::string label;  // likewise with {keys}, as the note
+  std::string text;
+  std::string note = {};
+};
+
+/// A headline as a page shows it.
+struct ShownHeadline {
+  std::string label;
+  std::string value;
+  std::string unit;
+  std::string note;
+  std::vector<std::string> keys;  // of `result`, in the order of the value's numbers: "cycles/0/rrc_N_per_kN"
+};
+
 /// Text for a person alone, beside the results: an input, or a comparison with one. In a record it is a column. None
 /// where it is empty.
 struct Remark {
@@ -74,6 +93,10 @@ class ResultSheet {
   std::vector<ResultLine> lines;
   std::vector<Table> tables;      // of what was measured at several points
   std::vector<ResultInfo> infos;  // a record's result as "cycles[].load_N"
+  std::vector<ShownHeadline> headlines;
+  /// Keys whose value alone is a headline, in their order, with its label where that has no keys; also of results
+  /// without a value.
+  std::vector<std::pair<std::string, std::string>> headline_keys;
 
   /// The sheet of a struct with a visit(ResultSheet&).
   template <class Results>
@@ -96,6 +119,7 @@ class ResultSheet {
   }
   void operator()(const Remark& remark, const std::string& text);
   void operator()(const JointLine& line);
+  void operator()(const Headline& headline);
   /// `total`, for a person alone, is the last row of the tables; what it lacks is NaN.
   template <class Record>
   void operator()(const ResultList& list, const std::vector<Record>& records,
@@ -110,11 +134,22 @@ class ResultSheet {
   struct Shown {
     std::string text;  // empty where there is no value
     std::string unit;
+    std::string place;  // in `json`
+  };
+  /// A text with the values of its {keys}.
+  struct Filled {
+    std::string text;
+    std::string unit;  // of a last value that ends the text, where it is asked for apart
+    std::vector<const Shown*> used;
+    std::vector<std::string> keys;
+    bool is_whole = true;
   };
   using Row = std::vector<std::string>;
 
   void add(const Result& result, const Json& value, const std::string& text);
   void add(const ResultList& list, const ResultSheet& declared, const std::vector<ResultSheet>& sheets, bool has_total);
+  void show_record(const std::string& list, const char* which, std::size_t place, const ResultSheet& record);
+  Filled fill(const std::string& text, bool with_last_unit) const;
 
   std::map<std::string, Shown> shown_;   // by key
   std::array<Row, 2> headings_, cells_;  // of a record, as its tables show it

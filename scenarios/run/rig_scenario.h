@@ -28,7 +28,9 @@ Scenario make_scenario(ScenarioText text, Plan plan, CarryOut carry_out) {
   Scenario scenario;
   scenario.text = std::move(text);
   scenario.settings = list_settings<Settings>();
-  scenario.results = ResultSheet::of(Results{}).infos;
+  const ResultSheet declared = ResultSheet::of(Results{});
+  scenario.results = declared.infos;
+  scenario.headlines = declared.headline_keys;
   scenario.prepare = [plan, carry_out](const RunSpec& spec) -> PreparedRun {
     const auto settings = std::make_shared<Settings>(read_settings<Settings>(spec));
     settings->complete(spec);

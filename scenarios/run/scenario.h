@@ -93,6 +93,7 @@ struct Scenario {
   bool has_uncertainty = false;  // its outcomes have a measurement model
   std::vector<SettingInfo> settings;
   std::vector<ResultInfo> results;
+  std::vector<std::pair<std::string, std::string>> headlines;  // key and label of what matters most, in that order
   /// Reads spec.settings and plans: what prepare_run() calls. Throws InputError.
   std::function<PreparedRun(const RunSpec& spec)> prepare;
 

@@ -75,6 +75,32 @@ async function checkCharts() {
   }
 }
 
+/// A tooltip over each panel of the first chart over time: it names quantity, unit and every series of that panel alone, and
+/// stays in the window.
+async function checkTooltips() {
+  const places = await chromium.evaluate(`(() => {
+    const block = JSON.parse(document.getElementById('payload').textContent).sections.flatMap((s) => s.blocks).find((b) => b.type === 'times');
+    const element = document.querySelector('.times .chart');
+    if (!block || !element) return [];
+    const { instance } = rollrig.chartAt(element);
+    return block.panels.map((panel, i) => ({ label: panel.label, unit: panel.unit, series: panel.series.map((s) => s.name),
+      others: block.panels.filter((one) => one.label !== panel.label).map((one) => one.label + ', ' + one.unit), rect: instance.getModel().getComponent('grid', i + 1).coordinateSystem.getRect() })); })()`);
+  for (const { label, unit, series, others, rect } of places) {
+    // The panel at the foot of the window, where a tooltip has least room.
+    const at = await chromium.evaluate(`(() => { const element = document.querySelector('.times .chart');
+      scrollBy(0, element.getBoundingClientRect().top + ${rect.y + rect.height} - innerHeight + 4);
+      const box = element.getBoundingClientRect(); return { x: box.left + ${rect.x + rect.width - 12}, y: box.top + ${rect.y + 0.6 * rect.height} }; })()`);
+    for (const dx of [-30, 0]) await chromium.send('Input.dispatchMouseEvent', { type: 'mouseMoved', x: at.x + dx, y: at.y });
+    await waitFor(`[...document.querySelector('.times .chart').children].slice(1).some((tip) => tip.textContent.includes(${JSON.stringify(`${label}, ${unit}`)}))`);
+    const { text, box, room } = await chromium.evaluate(`(() => { const tip = document.querySelector('.times .chart').children[1]; const { left, top, right, bottom } = tip.getBoundingClientRect();
+      return { text: tip.textContent, box: { left, top, right, bottom }, room: [innerWidth, innerHeight] }; })()`);
+    check(text.includes(`${label}, ${unit}`) && series.every((name) => text.includes(`${name}:`)) && !others.some((other) => text.includes(other)),
+      `the tooltip over ${label} names it, its unit and its series alone: ${text.slice(0, 120)}`);
+    check(box.left >= -1 && box.top >= -1 && box.right <= room[0] + 1 && box.bottom <= room[1] + 1, `the tooltip over ${label} is in the window: ${JSON.stringify(box)} of ${room}`);
+  }
+  await chromium.evaluate('(scrollTo(0, 0), 0)');
+}
+
 /// The slider by keyboard: the drawing, the values and the cursor move.
 async function checkAnimation() {
   const look = `(() => ({ drawing: [...document.querySelectorAll('.animation g[transform]')].map((g) => g.getAttribute('transform')).join(),
@@ -345,6 +371,7 @@ async function checkPage() {
   if (shown) check(await chromium.evaluate(`document.querySelector('main').textContent.includes(${JSON.stringify(shown)})`), `the page shows ${shown}`);
   await checkAccess();
   await checkSaving();
+  await checkTooltips();
   if (args.includes('--animation')) await checkAnimation();
   if (args.includes('--section')) await checkSection();
   if (option('--recording')) await checkReadings(option('--recording'));

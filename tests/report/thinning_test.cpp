@@ -111,3 +111,14 @@ TEST_CASE("short series", "[fast]") {
   CHECK(thin({1.0}, {2.0}, 100) == std::vector<std::size_t>{0});
   CHECK(thin({1.0, 2.0}, {2.0, 2.0}, 100) == std::vector<std::size_t>{0, 1});
 }
+
+TEST_CASE("thinning keeps a jump at its time", "[fast]") {
+  Made made;
+  for (std::size_t i = 0; i < 7200; ++i) {
+    made.time_s.push_back(static_cast<double>(i));
+    made.values.push_back(i < 3607 ? 6865.0 : 200.0);
+  }
+  const std::vector<std::size_t> kept = thin(made.time_s, made.values, 500);
+  CHECK(std::find(kept.begin(), kept.end(), 3606u) != kept.end());
+  CHECK(std::find(kept.begin(), kept.end(), 3607u) != kept.end());
+}

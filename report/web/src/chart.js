@@ -40,6 +40,7 @@ export function baseOption() {
       borderColor: color('rule'),
       textStyle: { color: color('ink'), fontSize: 12 },
       confine: true,
+      position: placeTip,
       transitionDuration: 0,
     },
   };
@@ -55,8 +56,55 @@ export function axisStyle() {
   };
 }
 
-/// What the upright axis shows, in words above it and below a legend.
-export const axisTitle = (text, hasLegend) => ({ text, left: 0, top: hasLegend ? 26 : 2, padding: 0, textStyle: { fontSize: 12, fontWeight: 400, color: color('soft') } });
+/// What the upright axis shows, in words above it and below a legend: `legend` is its height in px, or whether it has one line.
+export const axisTitle = (text, legend) => ({ text, left: 0, top: typeof legend === 'number' ? legend + 2 : legend ? 26 : 2, padding: 0, textStyle: { fontSize: 12, fontWeight: 400, color: color('soft') } });
+
+const kIcon_px = 26;
+const kGap_px = 12;
+const kLegendLine_px = 16;
+let ruler;
+
+/// Width of a text in the font of the charts.
+function textWidth(text, fontSize) {
+  ruler = ruler || document.createElement('canvas').getContext('2d');
+  ruler.font = `${fontSize}px ${getComputedStyle(document.body).fontFamily}`;
+  return ruler.measureText(text).width;
+}
+
+/// Lines that a legend of these names takes in a width, one after the other.
+function legendLines(names, width, fontSize) {
+  let lines = 1;
+  let at = 0;
+  for (const name of names) {
+    const wide = kIcon_px + 5 + textWidth(name, fontSize) + kGap_px;
+    if (at > 0 && at + wide > width) {
+      lines += 1;
+      at = 0;
+    }
+    at += wide;
+  }
+  return lines;
+}
+
+/// A legend on lines of its own, with all names: {option, height}. None, without height, for a single series.
+export function makeLegend(names, { left = 0, top = 0, width, fontSize = 12, ...more }) {
+  if (names.length < 2) return { option: null, height: 0 };
+  const option = { show: true, left, top, width, padding: 0, itemWidth: kIcon_px, itemHeight: 9, itemGap: kGap_px, data: names,
+    textStyle: { color: color('ink'), fontSize, lineHeight: kLegendLine_px, width: width - kIcon_px - 5, overflow: 'truncate' }, inactiveColor: color('axis'), ...more };
+  return { option, height: legendLines(names, width, fontSize) * (kLegendLine_px + kGap_px) - kGap_px + 6 };
+}
+
+/// Beside the pointer, inside of the chart and of the window.
+function placeTip(point, params, tip, rect, { contentSize: [wide, high] }) {
+  const chart = tip.parentElement.getBoundingClientRect();
+  const within = (at, low, most) => Math.max(low, Math.min(at, most));
+  const gap = 14;
+  const right = Math.min(chart.right, innerWidth) - chart.left;
+  const x = point[0] + gap + wide <= right ? point[0] + gap : point[0] - gap - wide;
+  const top = Math.max(0, -chart.top);
+  const bottom = Math.min(chart.bottom, innerHeight) - chart.top;
+  return [within(x, Math.max(0, -chart.left), right - wide), within(point[1] + gap, top, bottom - high)];
+}
 
 export class Chart {
   /// `makeOption(width)` is asked anew for each theme; `height` in px, or of the width. `title` and `data()`, the columns
@@ -154,6 +202,24 @@ export function showTips() {
     chart.instance.dispatchAction({ type: 'showTip', seriesIndex, dataIndex: 0 });
     return [...chart.element.children].slice(1).map((tip) => tip.innerHTML).join('');
   }));
+}
+
+export const chartAt = (element) => all.find((chart) => chart.element === element && chart.instance);
+
+/// Boxes of each legend and each plot of a chart in the window, in pairs: for tests.
+export function legendsAndPlots({ instance, element }) {
+  const frame = element.getBoundingClientRect();
+  const inWindow = ({ x, y, width, height }) => ({ left: frame.left + x, top: frame.top + y, right: frame.left + x + width, bottom: frame.top + y + height });
+  const boxes = [];
+  instance.getModel().eachComponent('legend', (model) => {
+    const { group } = instance.getViewOfComponentModel(model);
+    const box = group.getBoundingRect().clone();
+    box.applyTransform(group.transform || group.getLocalTransform());
+    if (model.get('show') && box.width > 0) boxes.push({ name: model.get('data').map((one) => one.name || one).join(', '), legend: inWindow(box) });
+  });
+  const plots = [];
+  instance.getModel().eachComponent('grid', (model) => plots.push(inWindow(model.coordinateSystem.getRect())));
+  return boxes.flatMap((one) => plots.map((plot) => ({ ...one, plot })));
 }
 
 /// What stands below a chart: the numbers as a table that opens, and the menu that saves it.

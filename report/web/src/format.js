@@ -19,7 +19,7 @@ export const fixed = (value, decimals) =>
   Number.isFinite(value) ? value.toFixed(decimals).replace(/^-(0(\.0*)?)$/, '$1').replace('-', kMinus) : '\u2013';
 
 /// A text with true minus signs before its numbers, \u00b1 for what a terminal writes as +-, and % kept to its number.
-export const typeset = (text) => String(text).replace(/(^|[\s(])-(?=[\d.])/g, `$1${kMinus}`).replace(/ \+- /g, ' \u00b1 ').replace(/(\d) %/g, '$1\u00a0%');
+export const typeset = (text) => String(text).replace(/(^|[\s(])-(?=[\d.])/g, `$1${kMinus}`).replace(/(^| )\+- /g, '$1\u00b1 ').replace(/(\d) %/g, '$1\u00a0%');
 
 /// Decimals with which a range of values is told apart, for readouts that do not jump.
 export function decimalsFor(low, high) {

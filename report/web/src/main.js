@@ -3,6 +3,7 @@
 import { barsBlock } from './blocks/bars.js';
 import { curvesBlock } from './blocks/curves.js';
 import { energyBlock } from './blocks/energy.js';
+import { forestBlock } from './blocks/forest.js';
 import { inputsBlock } from './blocks/inputs.js';
 import { mapBlock, sharesBlock } from './blocks/map.js';
 import { linesBlock, tableBlock } from './blocks/table.js';
@@ -10,7 +11,7 @@ import { definitionsBlock, leadBlock, preBlock, textBlock, warningsBlock } from 
 import { tilesBlock } from './blocks/tiles.js';
 import { timesBlock } from './blocks/times.js';
 import { waterfallBlock } from './blocks/waterfall.js';
-import { chartCount, drawAll, showTips } from './chart.js';
+import { chartAt, chartCount, drawAll, legendsAndPlots, showTips } from './chart.js';
 import { Clock } from './clock.js';
 import { h } from './dom.js';
 import { animationBlock } from './animation/animation.js';
@@ -19,7 +20,7 @@ import { makeThemeButton, setOnPaper, startTheme } from './theme.js';
 import { timeBarBlock } from './timebar.js';
 
 export const kBlocks = {
-  bars: barsBlock, cross_section: crossSectionBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
+  bars: barsBlock, cross_section: crossSectionBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, forest: forestBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
   map: mapBlock, pre: preBlock, animation: animationBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
   tiles: tilesBlock, time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
   waterfall: waterfallBlock,
@@ -50,6 +51,14 @@ function makeContents(sections) {
   return h('nav', { 'aria-label': 'Contents' }, sections.map((s) => h('a', { href: `#${slug(s.title)}` }, s.title)));
 }
 
+/// Tables that are wider than the paper, made smaller: nothing of them is to be cut.
+function fitTables() {
+  document.querySelectorAll('.scroll > table').forEach((table) => {
+    const room = table.parentElement.clientWidth / table.scrollWidth;
+    if (room > 0 && room < 1) table.style.zoom = 0.98 * room;
+  });
+}
+
 function start() {
   const payload = JSON.parse(document.getElementById('payload').textContent);
   startTheme();
@@ -66,13 +75,15 @@ function start() {
     setOnPaper(true);
     document.documentElement.classList.add('paper');
     drawAll();
+    fitTables();
   });
   addEventListener('afterprint', () => {
+    document.querySelectorAll('.scroll > table').forEach((table) => (table.style.zoom = ''));
     document.documentElement.classList.remove('paper');
     setOnPaper(false);
     drawAll();
   });
-  window.rollrig = { clock, drawAll, chartCount, showTips };
+  window.rollrig = { clock, drawAll, chartAt, chartCount, legendsAndPlots, showTips };
   document.documentElement.dataset.ready = 'yes';
 }
 

@@ -1,5 +1,6 @@
-// Bars side by side: {label, unit, categories: [...], series: [{name, values, low, high}], caption}
-import { axisStyle, axisTitle, baseOption, Chart, figure } from '../chart.js';
+// Bars side by side, or one below the other where there are many: {label, unit, categories: [...], series: [{name, values, low, high}], caption}
+import { axisStyle, axisTitle, baseOption, Chart, figure, makeLegend, tipLine } from '../chart.js';
+import { h } from '../dom.js';
 import { number } from '../format.js';
 import { column } from '../save.js';
 import { color } from '../theme.js';
@@ -13,43 +14,69 @@ function barStyle(k) {
     decal: { symbol: 'rect', color: tone, dashArrayX: [1, 0], dashArrayY: [2, 4], rotation: -Math.PI / 4 } };
 }
 
+const kLeast_px = 70; // width of a category below which bars lie
+const isLying = (block, width) => width / block.categories.length < kLeast_px;
+
 /// Intervals as whiskers on the bars of one series.
-function whiskers(series, k, count) {
+function whiskers(series, k, count, lying) {
   return {
     type: 'custom', name: series.name, silent: true, z: 5,
     data: series.values.map((_, i) => [i, series.low[i], series.high[i]]).filter((d) => d[1] !== null && d[2] !== null),
-    encode: { x: 0, y: [1, 2] },
+    encode: lying ? { y: 0, x: [1, 2] } : { x: 0, y: [1, 2] },
     renderItem: (params, api) => {
-      const [x, low] = api.coord([api.value(0), api.value(1)]);
-      const [, high] = api.coord([api.value(0), api.value(2)]);
-      const band = api.size([1, 0])[0];
-      const at = x + (k - (count - 1) / 2) * ((0.7 * band) / count);
-      const whisker = (stroke, lineWidth) => [[at, low, at, high], [at - 4, low, at + 4, low], [at - 4, high, at + 4, high]]
+      const place = (value) => api.coord(lying ? [value, api.value(0)] : [api.value(0), value]);
+      const along = lying ? 0 : 1;
+      const band = api.size(lying ? [0, 1] : [1, 0])[1 - along];
+      const at = place(api.value(1))[1 - along] + (lying ? -1 : 1) * (k - (count - 1) / 2) * ((0.7 * band) / count);
+      const [low, high] = [api.value(1), api.value(2)].map((value) => place(value)[along]);
+      const line = (a, b, c, d) => (lying ? [b, a, d, c] : [a, b, c, d]);
+      const whisker = (stroke, lineWidth) => [line(at, low, at, high), line(at - 4, low, at + 4, low), line(at - 4, high, at + 4, high)]
         .map(([x1, y1, x2, y2]) => ({ type: 'line', shape: { x1, y1, x2, y2 }, style: { stroke, lineWidth } }));
       return { type: 'group', children: [...whisker(color('paper'), 4), ...whisker(color('ink'), 1.5)] };
     },
   };
 }
 
+const titleOf = (block) => [block.label, block.unit].filter(Boolean).join(', ');
+const legendOf = (block, width) => makeLegend(block.series.map((s) => s.name), { width, itemWidth: 18, itemHeight: 10 });
+
+/// Quantity, unit and every series of a category.
+function makeTip(block, index) {
+  const value = (series) => [number(series.values[index]), block.unit].filter(Boolean).join(' ');
+  const interval = (series) => (series.low && series.low[index] !== null && series.low[index] !== undefined ? tipLine('', `${number(series.low[index])} to ${number(series.high[index])}`) : null);
+  return [h('div', null, h('b', null, block.categories[index])), h('div', null, titleOf(block)),
+    ...block.series.flatMap((series) => [tipLine(`${series.name}:`, value(series)), interval(series)])].filter(Boolean);
+}
+
 function makeOption(block, width) {
   const axis = axisStyle();
-  const crowded = width / block.categories.length < 70;
+  const legend = legendOf(block, width);
+  const lying = isLying(block, width);
   const bars = block.series.map((series, k) => ({
-    name: series.name, type: 'bar', data: series.values, itemStyle: barStyle(k), barGap: '8%', barMaxWidth: 72, barCategoryGap: '30%',
-    label: { show: Boolean(series.labels) && !crowded, position: 'top', fontSize: 11, color: color('ink'), formatter: (p) => series.labels[p.dataIndex] },
+    name: series.name, type: 'bar', data: series.values, itemStyle: barStyle(k), barGap: '8%', barMaxWidth: lying ? 22 : 72, barCategoryGap: '30%',
+    label: { show: Boolean(series.labels), position: lying ? 'right' : 'top', fontSize: 11, color: color('ink'), formatter: (p) => series.labels[p.dataIndex] },
   }));
+  const names = { ...axis, type: 'category', data: block.categories, inverse: lying, splitLine: { show: false }, axisTick: { show: false },
+    axisLabel: { ...axis.axisLabel, formatter: (name) => name.replaceAll('/', '\u2215'), interval: 0, // no break inside of km/h
+      hideOverlap: false, width: lying ? Math.min(230, 0.42 * width) : width / block.categories.length - 8, overflow: 'break', lineHeight: lying ? 12 : 14 } };
+  const values = { ...axis, type: 'value', axisLine: { show: false }, axisTick: { show: false } };
   return {
     ...baseOption(),
-    tooltip: { ...baseOption().tooltip, trigger: 'axis', axisPointer: { type: 'shadow' }, valueFormatter: (v) => (Array.isArray(v) ? '' : `${number(v)} ${block.unit}`) },
-    legend: { show: block.series.length > 1, top: 0, left: 0, padding: 0, itemWidth: 18, itemHeight: 10, textStyle: { color: color('ink'), fontSize: 12 }, data: block.series.map((s) => s.name) },
-    title: axisTitle(`${block.label}, ${block.unit}`, block.series.length > 1),
-    grid: { left: 8, right: 8, top: block.series.length > 1 ? 58 : 34, bottom: 4, containLabel: true },
-    xAxis: { ...axis, type: 'category', data: block.categories, splitLine: { show: false }, axisTick: { show: false },
-      axisLabel: { ...axis.axisLabel, formatter: (name) => name.replaceAll('/', '\u2215'), interval: 0, // no break inside of km/h
-        hideOverlap: false, rotate: crowded ? 50 : 0, width: crowded ? 90 : width / block.categories.length - 8, overflow: crowded ? 'truncate' : 'break', lineHeight: 14 } },
-    yAxis: { ...axis, type: 'value',       axisLine: { show: false }, axisTick: { show: false } },
-    series: [...bars, ...block.series.map((s, k) => (s.low ? whiskers(s, k, block.series.length) : null)).filter(Boolean)],
+    tooltip: { ...baseOption().tooltip, trigger: 'axis', axisPointer: { type: 'shadow' }, formatter: (items) => (items.length ? makeTip(block, items[0].dataIndex) : '') },
+    legend: legend.option || { show: false },
+    title: axisTitle(titleOf(block), legend.height),
+    grid: { left: 8, right: lying && block.series.some((one) => one.labels) ? 58 : lying ? 28 : 12, top: legend.height + 34, bottom: 4, containLabel: true },
+    xAxis: lying ? values : names,
+    yAxis: lying ? names : values,
+    series: [...bars, ...block.series.map((s, k) => (s.low ? whiskers(s, k, block.series.length, lying) : null)).filter(Boolean)],
   };
+}
+
+/// Lying bars take a height of their own each.
+function heightOf(block, width) {
+  const legend = legendOf(block, width).height;
+  if (!isLying(block, width)) return (width < 600 ? 340 : 300) + legend;
+  return 60 + legend + block.categories.length * Math.max(26, 10 + 16 * block.series.length);
 }
 
 function makeNumbers(block) {
@@ -74,7 +101,7 @@ const makeData = (block) => [column('category', '', block.categories), ...block.
 export function barsBlock(block) {
   const names = block.series.map((s) => s.name).join(' and ');
   const chart = new Chart({
-    height: (width) => (width < 600 ? 360 : 320),
+    height: (width) => heightOf(block, width),
     label: `Bar chart: ${block.label}, ${names}, for ${block.categories.join(', ')}. The table below has the numbers.`,
     title: block.label, data: () => makeData(block),
     makeOption: (width) => makeOption(block, width),

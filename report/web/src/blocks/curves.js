@@ -1,7 +1,7 @@
 // Curves and points over a quantity that is not time:
 // {x: {label, unit}, y: {label, unit}, series: [{name, kind: line | steps | points, x, y, low, high}], caption}
 // A line's low and high are a band, those of points are whiskers.
-import { axisStyle, axisTitle, baseOption, Chart, figure, tipLine } from '../chart.js';
+import { axisStyle, axisTitle, baseOption, Chart, figure, makeLegend, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { number } from '../format.js';
 import { column } from '../save.js';
@@ -46,21 +46,24 @@ function makeSeries(series, k) {
   return [main, isLine ? band(series, style) : whiskers(series, style)];
 }
 
-function makeOption(block) {
+const legendOf = (block, width) => makeLegend(block.series.map((s) => s.name), { width, itemWidth: block.series.every((s) => s.kind !== 'points') ? 26 : 14 });
+
+function makeOption(block, width) {
   const axis = axisStyle();
   const name = (q) => (q.unit ? `${q.label}, ${q.unit}` : q.label);
   const lines = [
     ...(block.marks || []).map((mark) => ({ yAxis: mark })),
     ...(block.diagonal ? [[{ coord: [0, 0] }, { coord: [block.diagonal, block.diagonal] }]] : []),
   ];
+  const legend = legendOf(block, width);
   const series = block.series.flatMap(makeSeries);
   if (lines.length) series[0].markLine = { silent: true, symbol: 'none', label: { show: false }, lineStyle: { color: color('axis'), type: [4, 4] }, data: lines };
   return {
     ...baseOption(),
     tooltip: { ...baseOption().tooltip, trigger: 'item', formatter: (p) => [h('div', null, p.seriesName), tipLine(`${name(block.x)}:`, number(p.value[0])), tipLine(`${name(block.y)}:`, number(p.value[1]))] },
-    legend: { show: block.series.length > 1, top: 0, left: 0, padding: 0, itemWidth: block.series.every((s) => s.kind !== 'points') ? 26 : 14, itemHeight: 9, type: 'scroll', textStyle: { color: color('ink'), fontSize: 12 }, data: block.series.map((s) => s.name) },
-    title: axisTitle(name(block.y), block.series.length > 1),
-    grid: { left: 8, right: 16, top: block.series.length > 1 ? 54 : 30, bottom: 26, containLabel: true },
+    legend: legend.option || { show: false },
+    title: axisTitle(name(block.y), legend.height),
+    grid: { left: 8, right: 16, top: legend.height + 30, bottom: 26, containLabel: true },
     xAxis: { ...axis, type: 'value', scale: !block.x.from_zero, name: name(block.x), nameLocation: 'middle', nameGap: 26, splitLine: { show: false } },
     yAxis: { ...axis, type: 'value', scale: !block.y.from_zero },
     series,
@@ -89,10 +92,10 @@ function makeData(block) {
 
 export function curvesBlock(block) {
   const chart = new Chart({
-    height: (width) => block.height || (width < 600 ? 320 : 340),
+    height: (width) => block.height || 310 + legendOf(block, width).height,
     label: `Chart of ${block.y.label} over ${block.x.label}: ${block.series.map((s) => s.name).join(', ')}. The table below has the numbers.`,
     title: `${block.y.label} over ${block.x.label}`, data: () => makeData(block),
-    makeOption: () => makeOption(block),
+    makeOption: (width) => makeOption(block, width),
   });
   return figure({ chart, caption: block.caption, table: makeNumbers(block) });
 }

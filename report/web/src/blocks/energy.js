@@ -1,7 +1,7 @@
 // Where the energy goes: {ledgers: [{name, terms: [{name, in_J}]}], links: [[from, to]], closures: [...]}
 // Terms above zero bring energy in, terms below carry it off or store it. Energy that leaves the first ledger as the
 // second's heat source flows on.
-import { baseOption, Chart, chartFoot, tipLine } from '../chart.js';
+import { axisTitle, baseOption, Chart, chartFoot, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { number, plain } from '../format.js';
 import { column } from '../save.js';
@@ -51,17 +51,19 @@ function countColumns(links) {
 
 function makeOption(block, unit, width) {
   const { nodes, links } = makeFlow(block, unit);
-  const right = width < 600 ? 84 : 170;
+  const isNarrow = width < 600;
+  const right = isNarrow ? 84 : 170;
   const label = Math.min(right, (width - right) / Math.max(1, countColumns(links) - 1)) - 18; // px from one column to the next
   const carried = (name) => Math.max(links.filter((l) => l.source === name).reduce((s, l) => s + l.value, 0),
     links.filter((l) => l.target === name).reduce((s, l) => s + l.value, 0));
   return {
     ...baseOption(),
+    title: isNarrow ? axisTitle(`Energy, ${unit.symbol}`, false) : undefined,
     tooltip: { ...baseOption().tooltip, formatter: (p) => tipLine(p.dataType === 'edge' ? `${p.data.source} to ${p.data.target}:` : `${p.name}:`, `${number(p.dataType === 'edge' ? p.data.value : p.value)} ${unit.symbol}`) },
     series: [{
-      type: 'sankey', left: 4, right, top: 12, bottom: 12, nodeWidth: 10, nodeGap: 28, draggable: false, nodeAlign: 'left',
+      type: 'sankey', left: 4, right, top: isNarrow ? 28 : 14, bottom: 28, nodeWidth: 10, nodeGap: isNarrow ? 46 : 30, draggable: false, nodeAlign: 'left',
       data: nodes, links, layoutIterations: 64, emphasis: { disabled: true },
-      label: { color: color('ink'), fontSize: width < 600 ? 10.5 : 12, formatter: (p) => `${p.name}\n${number(carried(p.name))} ${unit.symbol}`, lineHeight: 15, width: label, overflow: 'break' },
+      label: { color: color('ink'), fontSize: isNarrow ? 10.5 : 12, formatter: (p) => (isNarrow ? `${p.name}\n${number(carried(p.name), 3)}` : `${p.name}\n${number(carried(p.name))}\u00a0${unit.symbol}`), lineHeight: 15, width: label, overflow: 'break' },
       lineStyle: { color: color('flow'), opacity: 0.32, curveness: 0.5 },
     }],
   };
@@ -88,7 +90,7 @@ export function energyBlock(block) {
   const unit = unitFor(largest);
   const summary = block.ledgers.map((l) => l.terms.filter((t) => Math.abs(t.in_J) >= kShown * inflow(l))
     .map((t) => `${plain(t.name)} ${number(t.in_J / unit.J)} ${unit.symbol}`).join(', ')).join('; ');
-  const chart = new Chart({ height: (width) => (width < 600 ? 420 : 340), label: `Flow of energy: ${summary}`, title: 'Flow of energy', data: () => makeData(block), makeOption: (width) => makeOption(block, unit, width) });
+  const chart = new Chart({ height: (width) => (width < 600 ? 500 : 360), label: `Flow of energy: ${summary}`, title: 'Flow of energy', data: () => makeData(block), makeOption: (width) => makeOption(block, unit, width) });
   return h('figure', null, chart.element, h('figcaption', null, block.caption),
     chartFoot(chart, makeNumbers(block, unit)));
 }

@@ -1,9 +1,9 @@
 // Channels over time: panels one above the other on one axis, phases shaded, a cursor at the page's time.
 //
 // {title, view: [from_s, to_s], phases: [{name, start_s, end_s}],
-//  rows: [[start_s, step_s, number], ...], panels: [{label, unit, series: [{name, t, y, points, recorded, phases}]}]}
+//  rows: [[start_s, step_s, number], ...], panels: [{label, unit, scale: [from, to], series: [{name, t, y, points, recorded, phases}]}]}
 // Of a recording the values in numbers are those of its rows (rows, recorded, phases), not of the lines.
-import { axisStyle, baseOption, Chart, chartFoot, graphic, tipLine } from '../chart.js';
+import { axisStyle, baseOption, Chart, chartFoot, graphic, makeLegend, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { recordedAt, rowAt, rowTimes, valueAt } from '../clock.js';
 import { clockTime, number, timeUnit } from '../format.js';
@@ -16,17 +16,52 @@ const kRight = 14;
 const kStrip = 20; // height of the row with the phases' names
 const kFoot = 66; // axis and zoom bar
 
-/// Height of a panel: on paper all of them are to fit on a page.
-const kPaper = 800;
-const panelHeight = (count) => (isOnPaper() ? Math.min(100, kPaper / count - 34) : 108);
-/// Room above each panel: for its title, and on a narrow page for the legend on a line of its own.
-const isNarrow = (width) => width < 560;
-const head = (width) => (isNarrow(width) ? 50 : 34);
-const panelTop = (i, width, count) => kStrip + 8 + head(width) + i * (panelHeight(count) + head(width));
-const panelsBottom = (count, width) => panelTop(count, width, count) - head(width);
+const kTitle_px = 22;
 
-/// Limits of an axis that do not blow up what hardly changes.
-function limits({ min, max }) {
+/// A legend below the title of a panel, on lines of its own.
+function legendOf(panel, width) {
+  const names = panel.series.map((series) => uniqueName(panel, series));
+  const shown = panel.series.map((series) => series.name);
+  const { option, height } = makeLegend(shown, { left: kLeft - 4, width: width - kLeft - kRight, fontSize: 11 });
+  return { height, option: option && { ...option, data: panel.series.map((series, i) => ({ name: names[i], itemStyle: { opacity: series.points ? 1 : 0 } })),
+    formatter: (name) => name.split('|').at(-1) } };
+}
+
+/// On paper a legend that says what the one above says is left out.
+const namesOf = (panel) => panel.series.map((series) => series.name).join('|');
+const hasLegend = (panels, i) => !isOnPaper() || i === 0 || namesOf(panels[i]) !== namesOf(panels[i - 1]);
+
+/// Where the panels lie: [{top, height, legend}], one below the other, each with its title and its legend above it. On paper all
+/// of them are to fit on a page.
+const kPanel_px = 108;
+const kPaper_px = 860;
+const kFewLabels_px = 70; // height below which an axis has room for two numbers
+function placePanels(panels, width) {
+  const heads = panels.map((panel, i) => 12 + kTitle_px + (hasLegend(panels, i) ? legendOf(panel, width).height : 0));
+  const all = heads.reduce((sum, head) => sum + head, 0);
+  const height = isOnPaper() ? Math.max(40, Math.min(100, (kPaper_px - all) / panels.length)) : kPanel_px;
+  let top = kStrip + 8;
+  return panels.map((panel, i) => {
+    const place = { top: top + heads[i], height, title: top + 12, legend: top + 12 + kTitle_px - 2 };
+    top += heads[i] + height;
+    return place;
+  });
+}
+const panelsBottom = (panels, width) => {
+  const last = placePanels(panels, width).at(-1);
+  return last.top + last.height;
+};
+
+/// Limits of an axis that do not blow up what hardly changes. `scale`: what the loaded phases reach; lines may leave the panel
+/// beyond.
+function limits({ min, max }, scale) {
+  if (scale) {
+    const span = scale[1] - scale[0];
+    const margin = 0.08 * span;
+    const round = 10 ** Math.floor(Math.log10(margin));
+    const from = scale[0] >= 0 && scale[0] <= span ? 0 : scale[0] - margin;
+    return { min: Math.floor(from / round) * round, max: Math.ceil((scale[1] + margin) / round) * round };
+  }
   const least = 0.01 * Math.max(Math.abs(min), Math.abs(max));
   if (max - min >= least || !(least > 0)) return { min: null, max: null };
   const step = 10 ** Math.floor(Math.log10(least));
@@ -104,31 +139,31 @@ function makeSeries(panel, series, index, k, unit, phases) {
   };
 }
 
-/// Of a recording: the values of the last row at or before the pointer. Of other series: their points nearest to it.
-function makeTooltip(block, unit) {
+/// All series of the panel under the pointer. Of a recording: the values of the last row at or before the pointer. Of other
+/// series: their points nearest to it.
+function makeTooltip(block, unit, hovered) {
   const times_s = block.rows && rowTimes(block.rows);
-  const head = (at_s) => h('div', null, h('b', null, clockTime(at_s)));
-  const line = (series, panel, value) => tipLine(series.name, `${number(value)} ${panel.unit}`);
+  const phaseAt = (at_s) => (block.phases || []).find((phase) => at_s >= phase.start_s - 1e-6 && at_s < phase.end_s);
+  const head = (panel, at_s) => [h('div', null, h('b', null, `${panel.label}, ${panel.unit}`)),
+    h('div', null, [clockTime(at_s), phaseAt(at_s) && phaseAt(at_s).name].filter(Boolean).join(' \u00b7 '))];
+  const line = (series, panel, value) => tipLine(`${series.name}:`, `${number(value)} ${panel.unit}`);
   return (items) => {
     if (!items.length) return '';
     const time_s = items[0].axisValue * unit.seconds;
+    const panel = block.panels[hovered()];
     if (times_s) {
       const row = rowAt(times_s, time_s);
       const value = (series) => (series.recorded ? recordedAt(series.recorded, row, times_s) : valueAt(series, times_s[row]));
-      return [head(times_s[row]), ...block.panels.flatMap((panel) => panel.series.map((series) => line(series, panel, value(series))))];
+      return [...head(panel, times_s[row]), ...panel.series.map((series) => line(series, panel, value(series)))];
     }
-    const lines = [head(time_s)];
-    for (const panel of block.panels) {
-      for (const series of panel.series) {
-        const item = items.find((one) => one.seriesName === uniqueName(panel, series) && one.value[1] !== null);
-        if (item) lines.push(line(series, panel, item.value[1]));
-      }
-    }
-    return lines;
+    return [...head(panel, time_s), ...panel.series.map((series) => {
+      const item = items.find((one) => one.seriesName === uniqueName(panel, series) && one.value[1] !== null);
+      return line(series, panel, item ? item.value[1] : valueAt(series, time_s));
+    })];
   };
 }
 
-function makeOption(block, span, unit, width) {
+function makeOption(block, span, unit, width, hovered) {
   const axis = axisStyle();
   const view = (block.view || span).map((t) => t / unit.seconds);
   const grids = [{ left: kLeft, right: kRight, top: 0, height: kStrip }];
@@ -137,10 +172,11 @@ function makeOption(block, span, unit, width) {
   const titles = [];
   const legends = [];
   const series = [phaseStrip(block.phases || [], unit)];
+  const places = placePanels(block.panels, width);
   block.panels.forEach((panel, i) => {
     const last = i === block.panels.length - 1;
-    const top = panelTop(i, width, block.panels.length);
-    grids.push({ left: kLeft, right: kRight, top, height: panelHeight(block.panels.length) });
+    const { top, height, title, legend } = places[i];
+    grids.push({ left: kLeft, right: kRight, top, height });
     xAxes.push({
       ...axis, type: 'value', gridIndex: i + 1, min: xAxes[0].min, max: xAxes[0].max,
       axisLine: { ...axis.axisLine, onZero: false }, axisTick: { ...axis.axisTick, show: last },
@@ -148,23 +184,19 @@ function makeOption(block, span, unit, width) {
       name: last ? `Time, ${unit.symbol}` : '', nameLocation: 'middle', nameGap: 22, splitLine: { show: false },
       axisPointer: { snap: false, lineStyle: { color: color('soft'), type: 'solid', width: 1 }, label: { show: false } },
     });
-    yAxes.push({ ...axis, type: 'value', gridIndex: i + 1, scale: true, splitNumber: 3, axisLine: { ...axis.axisLine, onZero: false }, min: (v) => limits(v).min, max: (v) => limits(v).max,
+    yAxes.push({ ...axis, type: 'value', gridIndex: i + 1, scale: true, splitNumber: height < kFewLabels_px ? 1 : 3, axisLine: { ...axis.axisLine, onZero: false }, min: (v) => limits(v, panel.scale).min, max: (v) => limits(v, panel.scale).max,
       axisLabel: { ...axis.axisLabel, formatter: (v) => number(v, 6).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '') } });
-    titles.push({ left: kLeft - 4, top: top - (isNarrow(width) ? 38 : 22), padding: 0,
+    titles.push({ left: kLeft - 4, top: title, padding: 0,
       text: `{b|${panel.label}} {u|${panel.unit}}`,
       textStyle: { fontSize: 12, color: color('ink'), rich: { b: { fontWeight: 600, fontSize: 12, color: color('ink') }, u: { fontSize: 12, color: color('soft') } } } });
-    if (panel.series.length > 1) {
-      const narrow = isNarrow(width);
-      legends.push({ data: panel.series.map((s) => ({ name: uniqueName(panel, s), itemStyle: { opacity: s.points ? 1 : 0 } })), formatter: (name) => name.split('|').at(-1), type: 'scroll', top: top - (narrow ? 20 : 24), pageIconSize: 10, pageTextStyle: { color: color('soft') },
-        ...(narrow ? { left: kLeft - 8, right: kRight } : { right: kRight, width: width - 230 }), itemWidth: 26, itemHeight: 8, itemGap: 12, padding: 0,
-        textStyle: { fontSize: 11, lineHeight: 16, color: color('soft') }, inactiveColor: color('grid') });
-    }
+    const { option } = legendOf(panel, width);
+    if (option && hasLegend(block.panels, i)) legends.push({ ...option, top: legend });
     panel.series.forEach((one, k) => series.push(makeSeries(panel, one, i, k, unit, block.phases || [])));
   });
   const allX = xAxes.map((_, i) => i);
   return {
     ...baseOption(),
-    tooltip: { ...baseOption().tooltip, trigger: 'axis', formatter: makeTooltip(block, unit) },
+    tooltip: { ...baseOption().tooltip, trigger: 'axis', formatter: makeTooltip(block, unit, hovered) },
     axisPointer: { link: [{ xAxisIndex: allX.slice(1) }] },
     title: titles, legend: legends, grid: grids, xAxis: xAxes, yAxis: yAxes,
     dataZoom: [
@@ -178,7 +210,7 @@ function makeOption(block, span, unit, width) {
 }
 
 /// The cursor at the page's time, over all panels; dragging on the chart moves the time.
-function tieToClock(chart, cursor, clock, unit, panels) {
+function tieToClock(chart, cursor, clock, unit, panels, afterDraw) {
   const place = () => {
     if (!chart.instance) return;
     cursor.style.height = `${panelsBottom(panels, chart.width)}px`;
@@ -189,6 +221,7 @@ function tieToClock(chart, cursor, clock, unit, panels) {
   };
   clock.onChange(place);
   chart.afterDraw = () => {
+    afterDraw();
     place();
     if (chart.isTied) return;
     chart.isTied = true;
@@ -215,17 +248,28 @@ export function timesBlock(block, { clock }) {
   const span = findSpan(block);
   const unit = timeUnit((block.view || span)[1] - (block.view || span)[0]);
   const names = block.panels.map((panel) => panel.label.toLowerCase()).join(', ');
+  let pointer_px = 0;
+  const hovered = () => {
+    const below = placePanels(block.panels, chart.width).findIndex(({ top, height }) => pointer_px < top + height);
+    return below < 0 ? block.panels.length - 1 : below;
+  };
   const chart = new Chart({
-    height: (width) => panelsBottom(block.panels.length, width) + kFoot,
+    height: (width) => panelsBottom(block.panels, width) + (isOnPaper() ? 40 : kFoot),
     label: `Line charts over time from ${clockTime(span[0])} to ${clockTime(span[1])}: ${names}. The table below has mean and extremes of each phase.`,
     title: block.title || 'Over time', data: () => makeData(block),
-    makeOption: (width) => makeOption(block, span, unit, width),
+    makeOption: (width) => makeOption(block, span, unit, width, hovered),
   });
+  const followPointer = () => {
+    if (chart.isFollowed) return;
+    chart.isFollowed = true;
+    chart.instance.getZr().on('mousemove', (event) => (pointer_px = event.offsetY));
+  };
+  chart.afterDraw = followPointer;
   const holder = h('div', { class: 'times' }, chart.element);
   if (clock && !block.unlinked) {
     const cursor = h('div', { class: 'cursor', 'aria-hidden': 'true' });
     holder.append(cursor);
-    tieToClock(chart, cursor, clock, unit, block.panels.length);
+    tieToClock(chart, cursor, clock, unit, block.panels, followPointer);
   }
   const zoom = (range) => chart.instance && chart.instance.dispatchAction({ type: 'dataZoom', startValue: range[0] / unit.seconds, endValue: range[1] / unit.seconds });
   const choice = h('div', { class: 'zoom' },

@@ -1,0 +1,234 @@
+// What a page says at a glance, and that its numbers are those of the JSON.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <regex>
+
+#include "build_paths.h"
+#include "models/quantities.h"
+#include "report/blocks.h"
+#include "report/list_pages.h"
+#include "report/run_page.h"
+#include "sim/core/text.h"
+#include "tests/support/run_program.h"
+
+using namespace rollrig;
+using namespace rollrig::tests;
+using scenarios::Headline;
+using scenarios::JointLine;
+using scenarios::Result;
+using scenarios::ResultList;
+using scenarios::ResultSheet;
+
+namespace {
+
+struct Record {
+  double load_N = 5000.0;
+
+  void visit(ResultSheet& visit) const { visit(Result{"load_N", "load", ".0f", "load"}, load_N); }
+};
+
+struct Results {
+  std::optional<double> sd = 4e-5;
+  std::vector<Record> records{{4000.0}, {6000.0}};
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"rrc_N_per_kN", "RRc", ".3f", "coefficient"}, 5.2e-3);
+    visit(Result{"rrc_sd_N_per_kN", "", ".3f", "its uncertainty"}, sd);
+    visit(ResultList{"cycles", "Cycles", "each"}, records);
+    visit(Headline{"RRc", "{rrc_N_per_kN} +- {rrc_sd_N_per_kN}", "at {cycles.last.load_N}"});
+    visit(Headline{"Load of the first", "{cycles.first.load_N}", "RRc {rrc_N_per_kN}"});
+  }
+};
+
+Json read_page(const std::string& file) {
+  const std::string html = read_file(file);
+  const std::string mark = "id=\"payload\">";
+  const std::size_t first = html.find(mark) + mark.size();
+  return Json::parse(html.substr(first, html.find("</script>", first) - first));
+}
+
+std::vector<double> list_numbers_of(const Json& json) {
+  std::vector<double> numbers;
+  for (const auto& [key, value] : json.flatten().items()) {
+    if (value.is_number()) numbers.push_back(value.get<double>());
+  }
+  return numbers;
+}
+
+/// Numbers of a text with as many digits as they are shown with.
+std::vector<std::string> list_shown(const std::string& text) {
+  static const std::regex number(R"([-+]?\d+(\.\d+)?(e[-+]\d+)?)");
+  std::vector<std::string> shown;
+  for (auto at = std::sregex_iterator(text.begin(), text.end(), number); at != std::sregex_iterator(); ++at) {
+    shown.push_back(at->str());
+  }
+  return shown;
+}
+
+/// Whether a number as shown is this one: half of its last digit.
+bool is_shown_as(const std::string& shown, double value) {
+  const std::size_t exponent_at = shown.find('e');
+  const std::string mantissa = shown.substr(0, exponent_at);
+  const std::size_t point = mantissa.find('.');
+  const int decimals = point == std::string::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
+  const int exponent = exponent_at == std::string::npos ? 0 : std::stoi(shown.substr(exponent_at + 1));
+  // The rounding of the number itself, and a few last bits of the arithmetic.
+  return std::abs(*parse_number(shown) - value) <= 0.5001 * std::pow(10.0, exponent - decimals) + 1e-12;
+}
+
+/// Four digits or a decimal point: less is a count or a name, and is in any JSON by chance.
+bool tells(const std::string& shown) { return shown.size() >= 4 && shown.find('.') != std::string::npos; }
+
+void check_tiles(const Json& page, const Json& json) {
+  std::size_t compared = 0;
+  for (const Json& section : page["sections"]) {
+    for (const Json& block : section["blocks"]) {
+      if (block["type"] != "tiles") continue;
+      for (const Json& tile : block["tiles"]) {
+        const Json from = tile.value("from", Json::array());
+        const std::vector<std::string> shown = list_shown(tile["value"]);
+        for (std::size_t i = 0; i < from.size(); ++i) {
+          const Json::json_pointer place(from[i].get<std::string>());
+          INFO(tile.dump());
+          REQUIRE(json.contains(place));
+          if (!json[place].is_number()) continue;
+          // A probability is shown in percent.
+          const double factor = tile["value"].get<std::string>().find('%') != std::string::npos ? 100.0 : 1.0;
+          REQUIRE(i < shown.size());
+          CHECK(is_shown_as(shown[i], factor * json[place].get<double>()));
+          ++compared;
+        }
+      }
+    }
+  }
+  CHECK(compared > 0);
+}
+
+/// Every number with a decimal point in a table of the sections is in the JSON.
+void check_tables(const Json& page, const Json& json) {
+  const std::vector<double> numbers = list_numbers_of(json);
+  std::size_t compared = 0;
+  for (const Json& section : page["sections"]) {
+    if (section["title"] == "Coastdowns") continue;  // times through bins are of the recording
+    for (const Json& block : section["blocks"]) {
+      if (block["type"] != "table") continue;
+      for (const Json& row : block["rows"]) {
+        for (const Json& cell : row) {
+          if (!cell.is_string()) continue;
+          for (const std::string& shown : list_shown(cell)) {
+            if (!tells(shown)) continue;
+            INFO(block.value("caption", "") << ": " << row.dump() << ": " << shown);
+            CHECK(std::any_of(numbers.begin(), numbers.end(),
+                              [&shown](double number) { return is_shown_as(shown, number); }));
+            ++compared;
+          }
+        }
+      }
+    }
+  }
+  CHECK(compared > 0);
+}
+
+}  // namespace
+
+TEST_CASE("headlines have value, unit and note, and where the JSON has them", "[fast]") {
+  const ResultSheet sheet = ResultSheet::of(Results{});
+  REQUIRE(sheet.headlines.size() == 2);
+  CHECK(sheet.headlines[0].value == "5.200 +- 0.040");
+  CHECK(sheet.headlines[0].unit == "N/kN");
+  CHECK(sheet.headlines[0].note == "at 6000 N");
+  CHECK(sheet.headlines[1].keys == std::vector<std::string>{"cycles/0/load_N"});
+  CHECK(sheet.json["/cycles/0/load_N"_json_pointer] == 4000.0);
+  CHECK(sheet.headlines[1].note == "RRc 5.200 N/kN");
+}
+
+TEST_CASE("a headline without its value is left out, but its key is known", "[fast]") {
+  const ResultSheet sheet = ResultSheet::of(Results{std::nullopt, {}});
+  CHECK(sheet.headlines.empty());
+  REQUIRE(sheet.headline_keys.size() == 2);
+  CHECK(sheet.headline_keys[0].first == "rrc_N_per_kN");
+}
+
+TEST_CASE("a sweep says its first result's range and its sensitivity", "[fast]") {
+  Json sweep = {{"scenario", "iso_28580"}, {"points", Json::array()}};
+  for (const int pressure_kPa : {230, 250, 270}) {
+    for (const int ambient_degC : {20, 25, 30}) {
+      const double rrc = 5.0 - 0.005 * (pressure_kPa - 250) - 0.04 * (ambient_degC - 25);
+      sweep["points"].push_back(
+          {{"set", {{"pressure_kPa", std::to_string(pressure_kPa)}, {"ambient_degC", std::to_string(ambient_degC)}}},
+           {"result", {{"drum_torque_Nm", 40.0 + rrc}, {"rrc_25degC_2m_N_per_kN", rrc}, {"rrc_N_per_kN", 2.0 * rrc}}}});
+    }
+  }
+  const report::Page page = report::make_sweep_page(sweep, {}, "");
+  const std::vector<report::Block>& blocks = page.sections.front().blocks;
+  REQUIRE(blocks.size() == 4);  // tiles, map, two charts: RRc as tested goes with the corrected one
+  const Json& tiles = blocks[0]["tiles"];
+  CHECK(tiles[0]["label"] == "RRc at 25 °C, 2 m drum");
+  CHECK(tiles[0]["value"] == "4.7 to 5.3");
+  std::map<std::string, std::string> by_unit;
+  for (const Json& tile : tiles) by_unit[tile["unit"]] = tile["value"];
+  CHECK(by_unit["% per 10 kPa"] == "-1.00");  // 100 x 10 x 0.005 / 5
+  CHECK(by_unit["% per K"] == "-0.80");       // 100 x 0.04 / 5
+  CHECK(blocks[1]["type"] == "map");
+  CHECK(blocks[2]["y"]["label"] == "RRc at 25 °C, 2 m drum");
+  for (const Json& column : page.sections.back().blocks.front()["columns"]) {
+    CHECK(column["label"].get<std::string>().find('_') == std::string::npos);  // no raw key
+  }
+}
+
+TEST_CASE("panels over time show no ramp where a row of a minute ends, nothing that is zero and nothing twice",
+          "[fast]") {
+  namespace quantities = models::quantities;
+  sim::Recording<double> recording;
+  recording.phases = {{"soak", -600.0, 0.0}, {"run-up", 0.0, 60.0}, {"load", 60.0, 300.0}};
+  std::vector<double> speed_m_s, load_N, torque_Nm, zero, loss_N;
+  for (double time_s = -600.0; time_s <= 300.0; time_s += time_s < 0.0 ? 60.0 : 1.0) {
+    recording.time_s.push_back(time_s);
+    recording.phase.push_back(time_s < 0.0 ? 0 : time_s < 60.0 ? 1 : 2);
+    speed_m_s.push_back(std::clamp(time_s / 3.0, 0.0, 20.0));
+    load_N.push_back(time_s < 60.0 ? 200.0 : 6000.0);
+    torque_Nm.push_back(time_s < 0.0 ? 0.0 : time_s < 60.0 ? 180.0 : 50.0 - 0.01 * time_s);
+    zero.push_back(0.0);
+    loss_N.push_back(torque_Nm.back());
+  }
+  recording.channels = {{quantities::kSpeed},
+                        {quantities::kLoad},
+                        {quantities::kDrumTorque},
+                        {quantities::kLossForce},
+                        {quantities::kSpindleForce}};
+  recording.values = {speed_m_s, load_N, torque_Nm, zero, loss_N};
+  const report::Block block = report::make_times(recording);
+  std::map<std::string, Json> panels;
+  for (const Json& panel : block["panels"]) panels[panel["label"]] = panel;
+  CHECK(panels.count("Loss") == 0);
+  CHECK_THAT(block["caption"].get<std::string>(), Catch::Contains("Loss is 0 throughout"));
+  const Json& torque = panels.at("Drum torque");
+  const Json& t = torque["series"][0]["t"];
+  for (std::size_t i = 0; i < t.size(); ++i) {  // in the last minute of the soak it stands
+    if (t[i] < -1.0) CHECK(torque["series"][0]["y"][i] == 0.0);
+    if (t[i] == 0.0) CHECK(t[i - 1] == -1.0);
+  }
+  REQUIRE(torque.contains("scale"));  // 180 N m of the run-up lie beyond
+  CHECK(torque["scale"][1].get<double>() < 51.0);
+  CHECK(torque["scale"][0].get<double>() > 46.0);
+}
+
+TEST_CASE("numbers of tiles and tables are those of the JSON", "[slow]") {
+  const TemporaryFolder folder;
+  const std::string assets = std::string(ROLLRIG_SOURCE_DIR) + "/assets/examples/";
+  for (const std::string& command : {std::string("run iso_28580 --tire a50 --fidelity quasi_static --sensors source"),
+                                     std::string("run load_sweep --tire a50 --fidelity quasi_static"),
+                                     std::string("run sae_j1634 --tire a50 --fidelity quasi_static"),
+                                     "fit j2452 " + assets + "j2452_points.csv --maximum-load 6570 --base-pressure 240",
+                                     "fit road-load " + assets + "coastdown_bins.csv --mass 2203 --method wltp"}) {
+    const ProgramResult made = run_program(command + " --json result.json --html page.html", folder.path());
+    INFO(command << '\n' << made.err);
+    REQUIRE(made.status == 0);
+    const Json json = Json::parse(read_file(folder.file("result.json")));
+    const Json page = read_page(folder.file("page.html"));
+    check_tiles(page, json);
+    if (command.rfind("run", 0) == 0) check_tables(page, json);
+  }
+}
