@@ -1,7 +1,5 @@
 #include "serve/http_server.h"
 
-#include "serve/connection.h"
-
 namespace rollrig::serve {
 namespace {
 
@@ -49,12 +47,12 @@ void AnswerThreads::work_off() {
   }
 }
 
-HttpServer::HttpServer() {
+HttpServer::HttpServer(const ConnectionLimits& limits) : limits_(limits) {
   new_task_queue = [] { return new AnswerThreads; };  // NOLINT: cpp-httplib deletes it
 }
 
 bool HttpServer::process_and_close_socket(socket_t socket) {
-  Connection connection(socket, ConnectionLimits());
+  Connection connection(socket, limits_);
   bool is_closed = false;
   const bool is_answered = process_request(connection, true, is_closed, nullptr);
   connection.close();

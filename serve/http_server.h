@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "serve/connection.h"
 #include "serve/http.h"
 
 namespace rollrig::serve {
@@ -37,10 +38,12 @@ class AnswerThreads : public httplib::TaskQueue {
 /// One request a connection, read and answered within the limits of connection.h.
 class HttpServer : public httplib::Server {
  public:
-  HttpServer();
+  explicit HttpServer(const ConnectionLimits& limits);
 
  private:
   bool process_and_close_socket(socket_t socket) override;
+
+  ConnectionLimits limits_;
 };
 
 }  // namespace rollrig::serve

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <thread>
 
 #include "serve/app_page.h"
@@ -23,6 +24,12 @@ constexpr const char* kHtml = "text/html; charset=utf-8";
 
 int choose_threads(int asked) {
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+}
+
+ConnectionLimits make_limits(const ServerOptions& options) {
+  ConnectionLimits limits;
+  limits.head = options.head_limit;
+  return limits;
 }
 
 RequestHead read_head(const httplib::Request& request) {
@@ -75,7 +82,8 @@ struct Server::Data {
       : token(options.token.empty() ? make_token() : options.token),
         shelf(options.files),
         kept(options.keep_folder),
-        desk(shelf, kept, jobs, choose_threads(options.threads)) {}
+        desk(shelf, kept, jobs, choose_threads(options.threads)),
+        http(make_limits(options)) {}
 
   std::string token;
   int port = 0;
@@ -86,6 +94,7 @@ struct Server::Data {
   Turnstile runs{2, 8};   // Assumed: the slider that moves, and a page that is kept meanwhile
   Turnstile reads{1, 4};  // Assumed: files are read and a set is simulated
   HttpServer http;
+  std::atomic<bool> has_ended{false};
   std::thread thread;
 
   using Answer = std::function<Json(const httplib::Request&)>;
@@ -208,11 +217,14 @@ Server::Server(const ServerOptions& options) : data_(std::make_unique<Data>(opti
     throw InputError({"the port is taken, or not allowed", "command line", 0, "--port", std::to_string(options.port),
                       "a port that is free, from 1024; without --port rollrig finds one", ""});
   }
-  data_->thread = std::thread([this] { data_->http.listen_after_bind(); });
+  data_->thread = std::thread([data = data_.get()] {
+    data->http.listen_after_bind();
+    data->has_ended = true;
+  });
 }
 
 Server::~Server() {
-  while (!data_->http.is_running()) std::this_thread::yield();  // else stop() would not be heard
+  while (!data_->http.is_running() && !data_->has_ended) std::this_thread::yield();  // else stop() would not be heard
   data_->http.stop();
   data_->thread.join();
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// The server of `rollrig serve`: one page and what it asks for, on this computer alone.
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,7 @@ struct ServerOptions {
   int port = 0;       // 0: any that is free
   int threads = 0;    // of a diagnosis; 0: all of the machine but one, so that the controls stay quick
   std::string token;  // empty: a new one
+  std::chrono::milliseconds head_limit{5000};  // within which a client has to say what it wants
 };
 
 class Server {

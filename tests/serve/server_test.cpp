@@ -35,11 +35,15 @@ namespace {
 /// A server with a client that has its token.
 struct Bench {
   TemporaryFolder folder;
-  serve::Server server{make_options(folder)};
+  serve::Server server;
 
-  static serve::ServerOptions make_options(const TemporaryFolder& folder) {
+  explicit Bench(std::chrono::milliseconds head_limit = serve::ServerOptions().head_limit)
+      : server(make_options(folder, head_limit)) {}
+
+  static serve::ServerOptions make_options(const TemporaryFolder& folder, std::chrono::milliseconds head_limit) {
     serve::ServerOptions options;
     options.keep_folder = folder.file("kept");
+    options.head_limit = head_limit;
     return options;
   }
   httplib::Client make_client() const {
@@ -257,7 +261,7 @@ TEST_CASE("a hundred clients are answered, one after the other", "[slow]") {
 }
 
 TEST_CASE("clients that say nothing do not keep others out", "[slow]") {
-  const Bench bench;
+  const Bench bench(std::chrono::milliseconds(1000));
   std::vector<std::thread> silent;
   for (int i = 0; i < 20; ++i) {  // more than there are threads
     silent.emplace_back([&] { send_raw(bench.server.port(), "GET / HTTP/1.1\r\nA: "); });

@@ -9,7 +9,7 @@ import { kBlocks, makeSection, slug } from '../main.js';
 const kInPlace = ['times', 'bars', 'curves', 'time_bar'];
 /// Blocks that take new data in place for now, and are made again when the slider rests: the scale of their colors may
 /// have to change.
-const kInPlaceForNow = ['animation'];
+const kInPlaceForNow = ['animation', 'cross_section'];
 
 const kRest_ms = 150;
 
@@ -34,6 +34,7 @@ function shapeOf(block) {
   }
   if (block.type === 'bars' || block.type === 'curves') return [block.label, block.x, block.y, block.series.map((s) => s.name)];
   if (block.type === 'animation') return [block.machine, block.label, block.wheels.length];
+  if (block.type === 'cross_section') return [block.surface, block.t.length, block.nodes.map((node) => node.name), block.links.map((link) => [link.from, link.to])];
   return [];
 }
 
@@ -41,8 +42,8 @@ function shapeOf(block) {
 const inSight = new WeakSet();
 const watchSight = new IntersectionObserver((entries) => entries.forEach((entry) => (entry.isIntersecting ? inSight.add(entry.target) : inSight.delete(entry.target))));
 
-const shapeOfPage = (payload) => JSON.stringify([payload.title, payload.clock && [payload.clock.start_s, payload.clock.end_s],
-  payload.sections.map((section) => [section.title, section.folded, section.blocks.map((block) => [block.type, shapeOf(block)])])]);
+const shapeOfSection = (section) => JSON.stringify([section.folded, section.blocks.map((block) => [block.type, shapeOf(block)])]);
+const shapeOfPage = (payload) => JSON.stringify([payload.title, payload.clock && [payload.clock.start_s, payload.clock.end_s], payload.sections.map((section) => section.title)]);
 
 /// The page's clock for one block: its listeners go with the block's element.
 class ClockOfBlock {
@@ -66,7 +67,7 @@ class ClockOfBlock {
 
 /// What one looks at first: figures, then the test over time, then all else.
 function sorted(sections) {
-  const rank = (section) => (section.blocks.some((b) => ['tiles', 'lead', 'warnings'].includes(b.type)) ? 0 : section.blocks.some((b) => b.type === 'times') ? 1 : 2);
+  const rank = (section) => (section.blocks.some((b) => ['tiles', 'lead'].includes(b.type)) ? 0 : section.blocks.some((b) => b.type === 'times') ? 1 : 2);
   return sections.map((section, i) => ({ section, i })).sort((a, b) => rank(a.section) - rank(b.section) || a.i - b.i).map((one) => one.section);
 }
 
@@ -94,11 +95,16 @@ export class Results {
 
   #forget() {
     clearTimeout(this.later);
-    for (const slot of this.slots) {
+    this.#drop(this.slots);
+    this.slots = [];
+  }
+
+  #drop(slots) {
+    for (const slot of slots) {
+      if (slot.clock) slot.clock.listeners = [];
       forgetChartsIn(slot.element);
       watchSight.unobserve(slot.element);
     }
-    this.slots = [];
   }
 
   #rebuild(page) {
@@ -106,35 +112,47 @@ export class Results {
     const now_s = this.clock && page.clock && this.clock.now_s;
     this.clock = page.clock ? new Clock(page.clock.start_s, page.clock.end_s, page.clock.now_s) : null;
     if (now_s >= page.clock?.start_s && now_s <= page.clock?.end_s) this.clock.now_s = now_s;
-    const blocks = page.sections.map((section) => section.blocks.map((block) => ({ block, clock: this.clock && new ClockOfBlock(this.clock) })));
-    const elements = page.sections.map((section, i) => {
-      let n = 0;
-      const make = (block, context) => {
-        const slot = blocks[i][n++];
-        slot.context = { ...context, clock: slot.clock, section };
-        slot.element = kBlocks[block.type](block, slot.context);
-        return slot.element;
-      };
-      return makeSection(section, { clock: this.clock, payload: page }, make);
-    });
+    this.sections = page.sections.map((section) => this.#makeSection(section, page));
     this.element.replaceChildren(h('header', null, h('h1', null, page.title), page.subtitle && h('p', { class: 'subtitle' }, page.subtitle)),
-      h('nav', { 'aria-label': 'Contents' }, page.sections.map((s) => h('a', { href: `#${slug(s.title)}` }, s.title))), ...elements);
-    this.slots = blocks.flat();
-    for (const slot of this.slots) {
+      h('nav', { 'aria-label': 'Contents' }, page.sections.map((s) => h('a', { href: `#${slug(s.title)}` }, s.title))), ...this.sections.map((one) => one.element));
+    this.slots = this.sections.flatMap((one) => one.slots);
+  }
+
+  #makeSection(section, page) {
+    const slots = [];
+    const make = (block, context) => {
+      const slot = { block, clock: this.clock && new ClockOfBlock(this.clock) };
+      slot.context = { ...context, clock: slot.clock, section };
+      slot.element = kBlocks[block.type](block, slot.context);
+      slots.push(slot);
       this.#watchNumbers(slot);
       watchSight.observe(slot.element);
-    }
+      return slot.element;
+    };
+    return { shape: shapeOfSection(section), element: makeSection(section, { clock: this.clock, payload: page }, make), slots };
   }
 
   #update(page) {
     clearTimeout(this.later);
     this.element.querySelector('.subtitle')?.replaceChildren(page.subtitle);
-    page.sections.flatMap((section) => section.blocks).forEach((block, i) => this.#take(this.slots[i], block));
+    page.sections.forEach((section, i) => {
+      const old = this.sections[i];
+      if (old.shape === shapeOfSection(section)) section.blocks.forEach((block, n) => this.#take(old.slots[n], block));
+      else this.#renew(i, this.#makeSection(section, page));
+    });
+    this.slots = this.sections.flatMap((one) => one.slots);
     this.slots.filter((slot) => inSight.has(slot.element)).forEach((slot) => this.#refresh(slot));
     this.later = setTimeout(() => {
       this.slots.forEach((slot) => this.#refresh(slot));
       this.slots.filter((slot) => slot.isRough).forEach((slot) => this.#remake(slot));
     }, kRest_ms);
+  }
+
+  /// A section of another form, as where there is a warning now.
+  #renew(i, next) {
+    this.#drop(this.sections[i].slots);
+    this.sections[i].element.replaceWith(next.element);
+    this.sections[i] = next;
   }
 
   /// New data, not drawn yet. All blocks have theirs before the first is drawn: an animation reads those of its charts.
