@@ -147,11 +147,12 @@ export class Chart {
     if (this.afterDraw) this.afterDraw(this);
   }
 
-  /// Draws what has changed in the data, at the same size and zoom. The series must be those of before.
-  refresh() {
+  /// Draws what has changed in the data, at the same size and zoom. The series must be those of before. With
+  /// `isAsked(series)`, only those of them are drawn again.
+  refresh(isAsked) {
     if (!this.instance) return;
     const { dataZoom, ...option } = this.makeOption(this.width);
-    this.instance.setOption(option);
+    this.instance.setOption(isAsked ? { series: option.series.filter(isAsked) } : option);
     this.instance.getZr().flush();
     if (this.afterDraw) this.afterDraw(this);
   }

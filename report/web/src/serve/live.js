@@ -8,6 +8,8 @@ import { Results } from './results.js';
 /// From the last change by the person to its picture on the screen, in ms: for the check of latency.
 export const latencies = [];
 
+const kRest_ms = 200; // without a change, until what is out of sight is drawn as well
+
 export class Live {
   constructor(choices) {
     this.results = new Results();
@@ -44,6 +46,8 @@ export class Live {
     }
     this.status.classList.remove('busy');
     this.isBusy = false;
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => !this.isBusy && this.results.rest(), kRest_ms);
   }
 
   #show(answer, changed_ms) {

@@ -11,8 +11,6 @@ const kInPlace = ['times', 'bars', 'curves', 'time_bar'];
 /// have to change.
 const kInPlaceForNow = ['animation', 'cross_section'];
 
-const kRest_ms = 150;
-
 const isObject = (value) => typeof value === 'object' && value !== null;
 
 /// Puts the content of `source` into `target`, in the objects and arrays that are there: others hold them.
@@ -65,6 +63,15 @@ class ClockOfBlock {
   }
 }
 
+/// Of a chart with panels one above the other those in sight; null of others.
+function findPanelsInSight({ block, element }) {
+  const chart = block.type === 'times' && element.querySelector('.chart');
+  if (!chart) return null;
+  const { top, height } = chart.getBoundingClientRect();
+  const each = height / block.panels.length;
+  return block.panels.map((_, i) => i).filter((i) => top + (i + 1) * each > 0 && top + i * each < innerHeight);
+}
+
 /// What one looks at first: figures, then the test over time, then all else.
 function sorted(sections) {
   const rank = (section) => (section.blocks.some((b) => ['tiles', 'lead'].includes(b.type)) ? 0 : section.blocks.some((b) => b.type === 'times') ? 1 : 2);
@@ -94,7 +101,6 @@ export class Results {
   }
 
   #forget() {
-    clearTimeout(this.later);
     this.#drop(this.slots);
     this.slots = [];
   }
@@ -133,7 +139,6 @@ export class Results {
   }
 
   #update(page) {
-    clearTimeout(this.later);
     this.element.querySelector('.subtitle')?.replaceChildren(page.subtitle);
     page.sections.forEach((section, i) => {
       const old = this.sections[i];
@@ -141,11 +146,19 @@ export class Results {
       else this.#renew(i, this.#makeSection(section, page));
     });
     this.slots = this.sections.flatMap((one) => one.slots);
-    this.slots.filter((slot) => inSight.has(slot.element)).forEach((slot) => this.#refresh(slot));
-    this.later = setTimeout(() => {
-      this.slots.forEach((slot) => this.#refresh(slot));
-      this.slots.filter((slot) => slot.isRough).forEach((slot) => this.#remake(slot));
-    }, kRest_ms);
+    const seen = this.slots.filter((slot) => inSight.has(slot.element));
+    seen.forEach((slot) => (slot.panels = findPanelsInSight(slot)));  // before anything changes: else a layout each
+    seen.forEach((slot) => this.#refresh(slot));
+  }
+
+  /// Everything that show() left for when nothing else is to be done.
+  rest() {
+    for (const slot of this.slots) {
+      slot.isDirty ||= Boolean(slot.panels);
+      slot.panels = null;
+      this.#refresh(slot);
+      if (slot.isRough) this.#remake(slot);
+    }
   }
 
   /// A section of another form, as where there is a warning now.
@@ -166,7 +179,8 @@ export class Results {
     if (!slot.isDirty) return;
     slot.isDirty = false;
     if (kInPlace.includes(slot.block.type)) {
-      chartsIn(slot.element).forEach((chart) => chart.refresh());
+      const { panels } = slot;
+      chartsIn(slot.element).forEach((chart) => chart.refresh(panels && ((series) => panels.includes(series.yAxisIndex - 1))));
       slot.isStale = true;
       if (slot.element.querySelector('details.numbers')?.open) this.#renewNumbers(slot);
     } else if (kInPlaceForNow.includes(slot.block.type)) {
