@@ -211,7 +211,7 @@ Page make_alignment_page(const AlignmentFile& file, const AlignmentResult& resul
   Section section = make_section("Result", make_alignment_tables(file, result), result.warnings);
   section.blocks.insert(section.blocks.begin(), make_alignment_tiles(result));
   page.add(std::move(section));
-  page.add({"The line", "", {make_line_chart(result), make_alignment_residual_chart(result)}});
+  page.add({"The line", "", {make_equations("align"), make_line_chart(result), make_alignment_residual_chart(result)}});
   Section controls{"Control tires over time"};
   for (const ControlChart& chart : result.monitoring.charts) {
     if (chart.time_s.size() > 1) controls.blocks.push_back(make_control_chart(chart));

@@ -126,6 +126,8 @@ Table make_estimate_table(const std::string& title, const std::vector<ParameterE
 
 Block make_warnings(const std::vector<std::string>& warnings) { return {{"type", "warnings"}, {"items", warnings}}; }
 
+Block make_equations(const std::string& of) { return {{"type", "equations"}, {"of", of}}; }
+
 Block make_paragraph(const std::string& text) { return {{"type", "text"}, {"paragraphs", Json::array({text})}}; }
 
 Block make_lead(const std::string& tone, const std::string& text, const std::string& more) {

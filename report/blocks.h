@@ -87,6 +87,8 @@ Section make_section(const std::string& title, const std::vector<Table>& tables,
                      const std::vector<std::string>& warnings);
 /// Fitted numbers with their intervals; one without a standard deviation is on its bound.
 Table make_estimate_table(const std::string& title, const std::vector<ParameterEstimate>& estimates);
+/// Typeset equations of a procedure, by their name in report/web/equations.json; nothing where it has none.
+Block make_equations(const std::string& of);
 Block make_warnings(const std::vector<std::string>& warnings);
 Block make_paragraph(const std::string& text);
 /// A sentence on top; tone: good, doubt or bad.

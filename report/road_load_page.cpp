@@ -256,7 +256,7 @@ Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFi
   Section runs{"Runs"};
   if (file.is_trace) runs.blocks.push_back(make_run_chart(file));
   runs.blocks.push_back(make_time_chart(file, fit));
-  page.add({"Data and fit", "", {make_force_chart(file, fit)}});
+  page.add({"Data and fit", "", {make_equations("coastdown"), make_force_chart(file, fit)}});
   page.add(std::move(runs));
   page.add({"Residuals", "", {make_road_residual_chart(file, fit)}});
   page.add(make_document(estimation::make_road_load_json(file, options, fit, checks), "The fit as JSON"));

@@ -243,7 +243,7 @@ Page make_j2452_page(const estimation::RollingTest& test, const J2452Fit& fit,
   tiles.push_back({"Load exponent", fmt::format("{:.3f}", fit.law.beta), "", "beta of the law", "", {}});
   result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
   page.add(std::move(result));
-  page.add({"Points and law", "", {make_speed_chart(fit)}});
+  page.add({"Points and law", "", {make_equations("sae_j2452"), make_speed_chart(fit)}});
   page.add({"Law over load and pressure", "", {make_load_chart(fit)}});
   page.add({"Residuals", "", {make_residual_chart_of(fit.points, true)}});
   page.add(make_document(estimation::make_j2452_json(test, fit, reference), "The fit as JSON"));

@@ -78,8 +78,10 @@ Page make_run_page(const scenarios::RunSpec& spec, const scenarios::Outcome& out
   page.add(make_run_figures(outcome.result));
   page.add(make_over_time(spec, outcome));
   page.add({"Energy balance", "", {make_energy(outcome.recording.audit)}});
-  page.add(
-      {"Procedure", "", {make_paragraph(spec.scenario->text.procedure), make_paragraph(spec.scenario->text.source)}});
+  page.add({"Procedure",
+            "",
+            {make_equations(spec.scenario->text.name), make_paragraph(spec.scenario->text.procedure),
+             make_paragraph(spec.scenario->text.source)}});
   Json inputs = scenarios::make_manifest(spec, outcome);
   inputs.erase("format");
   page.add({"Inputs", "", {{{"type", "inputs"}, {"groups", inputs}}}, "All inputs, defaults included"});

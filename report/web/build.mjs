@@ -5,10 +5,21 @@ import { createHash } from 'node:crypto';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import temml from 'temml';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [pageFile, appFile] = process.argv.slice(2);
 const read = (...path) => readFileSync(join(here, ...path), 'utf8');
+
+/// Equations as MathML, which browsers draw without a library: equations.json has their TeX.
+const typesetEquations = {
+  name: 'equations',
+  setup: ({ onLoad }) => onLoad({ filter: /equations\.json$/ }, ({ path }) => {
+    const typeset = ({ tex, text }) => ({ mathml: temml.renderToString(tex, { displayMode: true, xml: true, strict: true, throwOnError: true }), text });
+    const all = JSON.parse(readFileSync(path, 'utf8'));
+    return { contents: JSON.stringify(Object.fromEntries(Object.entries(all).map(([name, list]) => [name, list.map(typeset)]))), loader: 'json' };
+  }),
+};
 
 async function bundle(entry) {
   const result = await build({
@@ -19,6 +30,7 @@ async function bundle(entry) {
     format: 'iife',
     target: 'es2020',
     charset: 'utf8',
+    plugins: [typesetEquations],
     legalComments: 'none', // the licenses stand in the page in full
     define: { 'process.env.NODE_ENV': '"production"' },
   });

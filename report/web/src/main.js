@@ -3,6 +3,7 @@
 import { barsBlock } from './blocks/bars.js';
 import { curvesBlock } from './blocks/curves.js';
 import { energyBlock } from './blocks/energy.js';
+import { equationsBlock } from './blocks/equations.js';
 import { forestBlock } from './blocks/forest.js';
 import { inputsBlock } from './blocks/inputs.js';
 import { mapBlock, sharesBlock } from './blocks/map.js';
@@ -20,7 +21,7 @@ import { makeThemeButton, setOnPaper, startTheme } from './theme.js';
 import { timeBarBlock } from './timebar.js';
 
 export const kBlocks = {
-  bars: barsBlock, cross_section: crossSectionBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, forest: forestBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
+  bars: barsBlock, cross_section: crossSectionBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, equations: equationsBlock, forest: forestBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
   map: mapBlock, pre: preBlock, animation: animationBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
   tiles: tilesBlock, time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
   waterfall: waterfallBlock,

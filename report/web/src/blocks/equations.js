@@ -1,0 +1,11 @@
+// Equations of a procedure, typeset when the page is built: {of: name in equations.json}
+import equations from '../../equations.json';
+import { h } from '../dom.js';
+
+/// The MathML is of this program, made from TeX by build.mjs.
+const formula = (mathml) => document.importNode(new DOMParser().parseFromString(mathml, 'application/xml').documentElement, true);
+
+export function equationsBlock({ of }) {
+  return h('div', { class: 'equations' }, (equations[of] || []).map(({ mathml, text }) => [
+    h('div', { class: 'equation' }, formula(mathml)), h('p', null, text)]));
+}
