@@ -67,12 +67,11 @@ ssize_t Connection::read(char* data, std::size_t size) {
 ssize_t Connection::write(const char* data, std::size_t size) {
   if (!is_answering_) deadline_ = Clock::now() + limits_.answer;  // the work for the answer took its time
   is_answering_ = true;
-  if (!wait_for(POLLOUT)) return -1;
-  ssize_t written = -1;
-  do {
-    written = ::send(socket_, data, size, MSG_NOSIGNAL | MSG_DONTWAIT);
-  } while (written < 0 && errno == EINTR);
-  return written;
+  while (wait_for(POLLOUT)) {
+    const ssize_t written = ::send(socket_, data, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (written >= 0 || (errno != EINTR && errno != EAGAIN)) return written;
+  }
+  return -1;
 }
 
 void Connection::close() {

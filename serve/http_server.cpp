@@ -1,5 +1,7 @@
 #include "serve/http_server.h"
 
+#include <sys/socket.h>
+
 namespace rollrig::serve {
 namespace {
 
@@ -49,6 +51,11 @@ void AnswerThreads::work_off() {
 
 HttpServer::HttpServer(const ConnectionLimits& limits) : limits_(limits) {
   new_task_queue = [] { return new AnswerThreads; };  // NOLINT: cpp-httplib deletes it
+}
+
+void HttpServer::lengthen_queue() {
+  constexpr int kMostQueued = 128;  // Assumed: the most that Linux lets wait by default, or less
+  ::listen(svr_sock_, kMostQueued);
 }
 
 bool HttpServer::process_and_close_socket(socket_t socket) {

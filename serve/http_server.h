@@ -40,6 +40,10 @@ class HttpServer : public httplib::Server {
  public:
   explicit HttpServer(const ConnectionLimits& limits);
 
+  /// To be called once it is bound: cpp-httplib lets five connections wait for the operating system, and a browser or
+  /// a hundred clients then meet a closed door.
+  void lengthen_queue();
+
  private:
   bool process_and_close_socket(socket_t socket) override;
 

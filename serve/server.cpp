@@ -217,6 +217,7 @@ Server::Server(const ServerOptions& options) : data_(std::make_unique<Data>(opti
     throw InputError({"the port is taken, or not allowed", "command line", 0, "--port", std::to_string(options.port),
                       "a port that is free, from 1024; without --port rollrig finds one", ""});
   }
+  data_->http.lengthen_queue();
   data_->thread = std::thread([data = data_.get()] {
     data->http.listen_after_bind();
     data->has_ended = true;
