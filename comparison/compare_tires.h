@@ -23,7 +23,7 @@ struct VirtualTest {
 /// Validity  errors of two tire files independent, unless all their numbers are equal: then common. f nearly linear
 /// Source    JCGM 100:2008 (GUM) 5.1.2, note 2 of 5.1.3
 /// Errors    RunFailure, Interrupted
-/// Checked   tests/api/compare_test.cpp
+/// Checked   tests/comparison/compare_test.cpp
 Compared compare_tires(const std::vector<models::TireFile>& tires, const std::vector<VirtualTest>& tests,
                        const std::vector<std::string>& names, const std::function<void(double)>& advance);
 

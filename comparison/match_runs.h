@@ -21,7 +21,7 @@ RunConditions find_conditions(const measurements::MeasuredRun& run);
 /// others, those at the same conditions, where no second one is: speed within 1 km/h, load within 2 %, cold pressure
 /// within 3 kPa, air and tire at the start within 3 K, duration within 10 %.
 /// Source   Assumed: all limits
-/// Checked  tests/comparison/compare_sets_test.cpp
+/// Checked  tests/comparison/match_runs_test.cpp
 std::vector<std::optional<std::size_t>> match_runs(const std::vector<measurements::MeasuredRun>& reference,
                                                    const std::vector<measurements::MeasuredRun>& other);
 
