@@ -22,10 +22,10 @@ Json make_series(const std::string& name, const std::vector<double>& time_s, con
 /// lost.
 ///
 /// The first and the last row are kept. The rows between are cut into equal stretches, and of each the first, the last,
-/// the least and the greatest value stay, and both sides of its greatest step, so that every peak and every jump of the
-/// series is at its own time and a line drawn through them looks as through all; a stretch with a gap (not finite)
-/// keeps one row of it. What then lies on the straight line of its neighbors, to `tolerance`, is left out: a series at
-/// rest is two points.
+/// the least and the greatest value stay, and both sides of its two greatest steps, so that every peak and every jump
+/// of the series is at its own time and a line drawn through them looks as through all; a stretch with a gap (not
+/// finite) keeps one row of it. What then lies on the straight line of its neighbors, to `tolerance`, is left out: a
+/// series at rest is two points.
 /// Source   Jugel et al., Proc. VLDB 7 (2014) 797 (M4)
 /// Checked  tests/report/thinning_test.cpp
 std::vector<std::size_t> thin(const std::vector<double>& time_s, const std::vector<double>& values, std::size_t most,

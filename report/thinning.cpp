@@ -7,7 +7,8 @@
 namespace rollrig::report {
 namespace {
 
-constexpr std::size_t kKeptOfStretch = 7;  // first, last, least, greatest, a gap, both sides of the greatest step
+// First, last, least, greatest, a gap, and both sides of the two greatest steps.
+constexpr std::size_t kKeptOfStretch = 9;
 
 /// Adds what a stretch of rows [first, last) keeps.
 void keep_of_stretch(const std::vector<double>& values, std::size_t first, std::size_t last,
@@ -17,15 +18,23 @@ void keep_of_stretch(const std::vector<double>& values, std::size_t first, std::
   std::size_t greatest = last;
   std::size_t gap = last;
   std::size_t step = last;  // the row after the greatest step
+  std::size_t second = last;
   double greatest_step = 0.0;
+  double second_step = 0.0;
   for (std::size_t i = first; i < last; ++i) {
     if (!std::isfinite(values[i])) {
       if (gap == last) gap = i;
       continue;
     }
-    if (i > 0 && std::abs(values[i] - values[i - 1]) > greatest_step) {
-      greatest_step = std::abs(values[i] - values[i - 1]);
+    const double size = i > 0 ? std::abs(values[i] - values[i - 1]) : 0.0;
+    if (size > greatest_step) {
+      second = step;
+      second_step = greatest_step;
       step = i;
+      greatest_step = size;
+    } else if (size > second_step) {
+      second = i;
+      second_step = size;
     }
     if (least == last || values[i] < values[least]) least = i;
     if (greatest == last || values[i] > values[greatest]) greatest = i;
@@ -33,7 +42,9 @@ void keep_of_stretch(const std::vector<double>& values, std::size_t first, std::
   for (const std::size_t i : {least, greatest, gap}) {
     if (i != last) own.push_back(i);
   }
-  if (step != last) own.insert(own.end(), {step - 1, step});
+  for (const std::size_t i : {step, second}) {
+    if (i != last) own.insert(own.end(), {i - 1, i});
+  }
   std::sort(own.begin(), own.end());
   own.erase(std::unique(own.begin(), own.end()), own.end());
   kept.insert(kept.end(), own.begin(), own.end());

@@ -61,7 +61,8 @@ Table make_at_speeds(const TireFit& fit) {
 Table make_channels(const TireFit& fit) {
   Table table{"", {"channel", "samples", "rest, in units of the sensor's noise"}, {}};
   for (const estimation::ChannelFit& at : fit.channels) {
-    table.rows.push_back({at.channel.header(), fmt::format("{}", at.samples), fmt::format("{:.3f}", at.whitened_rms)});
+    table.rows.push_back(
+        {plain_name(at.channel.header()), fmt::format("{}", at.samples), fmt::format("{:.3f}", at.whitened_rms)});
   }
   return table;
 }
