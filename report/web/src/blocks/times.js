@@ -185,7 +185,7 @@ function makeOption(block, span, unit, width, hovered) {
       axisPointer: { snap: false, lineStyle: { color: color('soft'), type: 'solid', width: 1 }, label: { show: false } },
     });
     yAxes.push({ ...axis, type: 'value', gridIndex: i + 1, scale: true, splitNumber: height < kFewLabels_px ? 1 : 3, axisLine: { ...axis.axisLine, onZero: false }, min: (v) => limits(v, panel.scale).min, max: (v) => limits(v, panel.scale).max,
-      axisLabel: { ...axis.axisLabel, formatter: (v) => number(v, 6).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '') } });
+      axisLabel: { ...axis.axisLabel, showMaxLabel: panel.scale ? false : undefined, formatter: (v) => number(v, 6).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '') } });
     titles.push({ left: kLeft - 4, top: title, padding: 0,
       text: `{b|${panel.label}} {u|${panel.unit}}`,
       textStyle: { fontSize: 12, color: color('ink'), rich: { b: { fontWeight: 600, fontSize: 12, color: color('ink') }, u: { fontSize: 12, color: color('soft') } } } });
