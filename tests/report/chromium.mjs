@@ -41,10 +41,10 @@ export class Chromium {
     }
   }
 
-  send(method, params = {}) {
+  send(method, params = {}, sessionId = this.session) {
     if (this.ended) return Promise.reject(this.ended);
     const id = this.next++;
-    this.process.stdio[3].write(`${JSON.stringify({ id, method, params, sessionId: this.session })}\0`);
+    this.process.stdio[3].write(`${JSON.stringify({ id, method, params, sessionId: sessionId || undefined })}\0`);
     return new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
   }
 
@@ -62,9 +62,15 @@ export class Chromium {
     await Promise.all(['Page', 'Runtime', 'Log', 'Network'].map((domain) => this.send(`${domain}.enable`)));
   }
 
+  /// Another, empty tab beside it: what send() and evaluate() take to reach it. Its events are not heard.
+  async openTab() {
+    const { targetId } = await this.send('Target.createTarget', { url: 'about:blank', background: true }, null);
+    return (await this.send('Target.attachToTarget', { targetId, flatten: true }, null)).sessionId;
+  }
+
   /// Value of an expression, a promise's result too.
-  async evaluate(expression) {
-    const { result, exceptionDetails } = await this.send('Runtime.evaluate', { expression, awaitPromise: true, returnByValue: true });
+  async evaluate(expression, sessionId = this.session) {
+    const { result, exceptionDetails } = await this.send('Runtime.evaluate', { expression, awaitPromise: true, returnByValue: true }, sessionId);
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description || exceptionDetails.text);
     return result.value;
   }
