@@ -13,7 +13,7 @@ struct ConnectionLimits {
   std::chrono::milliseconds head{5000};      // from the connection to the end of the head of the request
   std::chrono::milliseconds request{30000};  // likewise to the end of its content
   std::chrono::milliseconds answer{30000};   // from the first to the last byte of the answer
-  std::chrono::milliseconds linger{500};     // for a client that still sends when it is answered
+  std::chrono::milliseconds linger{3000};    // for a client that still sends when it is answered
   std::size_t head_bytes = 16384;
 };
 
