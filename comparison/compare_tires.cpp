@@ -71,7 +71,7 @@ void add_numbers(const std::vector<TireFile>& tires, Comparison& comparison) {
   for (const std::string& key : keys) {
     ComparedValue value;
     value.name = key;
-    value.label = plain_name(key.substr(key.rfind('.') + 1));
+    value.label = label_result(key);
     value.unit = unit_of_key(key.substr(key.rfind('.') + 1)).symbol;
     bool is_given = false;
     for (const auto& numbers : all) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/blocks.h"
 #include "report/comparison_page.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -18,18 +19,36 @@ std::string show_half_width(const Difference& difference) {
   return difference.sd.has_value() ? fmt::format("{:.2g}", *difference.high_95 - *difference.value) : "-";
 }
 
-/// Differences of one from the reference, of one place.
+std::string name_with_unit(const ComparedValue& value) {
+  return capitalized(value.label) + (value.unit.empty() ? "" : ", " + value.unit);
+}
+
+/// Whether two values are the same but for rounding.
+bool is_same_value(const ComparedValue& value, std::size_t other) {
+  constexpr double kRounding = 1e-9;
+  const std::optional<double>& difference = value.differences[other - 1].value;
+  const std::optional<double>& reference = value.values.front();
+  return difference.has_value() && std::abs(*difference) <= kRounding * std::max(1e-3, std::abs(*reference));
+}
+
+/// Differences of one from the reference, of one place. Values that are the same are counted.
 Table make_difference_table(const Comparison& comparison, std::size_t other, const std::string& place) {
   const std::string title =
       fmt::format("{}{} less {}", place.empty() ? "" : place + ": ", comparison.names[other], comparison.names.front());
   Table table{title, {"name", comparison.names.front(), comparison.names[other], "difference", "+- (95 %)", "%"}, {}};
+  std::size_t same = 0;
   for (const ComparedValue& value : comparison.values) {
     if (value.place != place) continue;
+    if (is_same_value(value, other)) {
+      ++same;
+      continue;
+    }
     const Difference& difference = value.differences[other - 1];
-    table.rows.push_back({value.name, show_number_or_dash(value.values.front()),
+    table.rows.push_back({name_with_unit(value), show_number_or_dash(value.values.front()),
                           show_number_or_dash(value.values[other]), show_number_or_dash(difference.value, "{:+.4g}"),
                           show_half_width(difference), show_number_or_dash(difference.percent, "{:+.2f}")});
   }
+  if (same > 0) table.rows.push_back({fmt::format("{} more, the same in both", same), "", "", "", "", ""});
   return table;
 }
 

@@ -191,7 +191,7 @@ Block make_heat_map(const Json& sweep, const std::vector<std::string>& axes, con
       const double value = at != sweep["points"].end() ? result_value(*at, key) : std::nan("");
       cells.push_back(std::isnan(value)
                           ? Json()
-                          : Json{{"text", fmt::format("{:.4g}", value)},
+                          : Json{{"text", fmt::format("{:#.4g}", value)},
                                  {"shade", half > 0.0 ? std::lround(kShade * (value - middle) / half) : 0}});
     }
     map.push_back({{"group", ""}, {"label", row}, {"cells", cells}});

@@ -7,11 +7,11 @@
 namespace rollrig::report {
 namespace {
 
-// First, last, least, greatest, a gap, and both sides of the two greatest steps.
-constexpr std::size_t kKeptOfStretch = 9;
+constexpr std::size_t kExtremes = 5;      // first, last, least, greatest, a gap
+constexpr std::size_t kSidesOfSteps = 4;  // both sides of the two greatest steps
 
 /// Adds what a stretch of rows [first, last) keeps.
-void keep_of_stretch(const std::vector<double>& values, std::size_t first, std::size_t last,
+void keep_of_stretch(const std::vector<double>& values, std::size_t first, std::size_t last, bool keeps_steps,
                      std::vector<std::size_t>& kept) {
   std::vector<std::size_t> own{first, last - 1};
   std::size_t least = last;
@@ -43,7 +43,7 @@ void keep_of_stretch(const std::vector<double>& values, std::size_t first, std::
     if (i != last) own.push_back(i);
   }
   for (const std::size_t i : {step, second}) {
-    if (i != last) own.insert(own.end(), {i - 1, i});
+    if (keeps_steps && i != last) own.insert(own.end(), {i - 1, i});
   }
   std::sort(own.begin(), own.end());
   own.erase(std::unique(own.begin(), own.end()), own.end());
@@ -58,11 +58,12 @@ std::vector<std::size_t> keep_extremes(const std::vector<double>& values, std::s
     std::iota(kept.begin(), kept.end(), std::size_t{0});
     return kept;
   }
-  const std::size_t stretches = (most - 2) / kKeptOfStretch;
+  const bool keeps_steps = most >= 2 + kExtremes + kSidesOfSteps;
+  const std::size_t stretches = (most - 2) / (kExtremes + (keeps_steps ? kSidesOfSteps : 0));
   const std::size_t inner = count - 2;
   kept.push_back(0);
   for (std::size_t s = 0; s < stretches; ++s) {
-    keep_of_stretch(values, 1 + s * inner / stretches, 1 + (s + 1) * inner / stretches, kept);
+    keep_of_stretch(values, 1 + s * inner / stretches, 1 + (s + 1) * inner / stretches, keeps_steps, kept);
   }
   kept.push_back(count - 1);
   return kept;

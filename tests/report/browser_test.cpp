@@ -55,7 +55,7 @@ void write_set(const TemporaryFolder& folder) {
 TEST_CASE("page of an ISO test on the multibody drum", "[slow]") {
   const TemporaryFolder folder;
   check_command(folder, "run iso_28580 --tire a50 --out run",
-                "--charts 2 --animation --section --recording '" + folder.file("run/recording.csv") + "'");
+                "--charts 2 --animation --section --equations 4 --recording '" + folder.file("run/recording.csv") + "'");
 }
 
 TEST_CASE("page of a multi-cycle test of a quarter on its roller", "[slow]") {
@@ -213,6 +213,8 @@ TEST_CASE("texts, legends and plots of every kind of page stay apart in every wi
       {"sweep",
        "sweep iso_28580 --tire a50 --fidelity quasi_static --vary pressure_kPa=230:270:20 --vary "
        "ambient_degC=20:30:5"},
+      {"sweep_of_tires", "sweep iso_28580 --fidelity quasi_static --vary tire=a40,a50,a60"},
+      {"compare", "compare a40 a50"},
       {"diagnosis", "diagnose set --only bearing_warmup,load_exponent"},
       {"fit_tire", "fit tire set"},
       {"fit_road_load", "fit road-load " + examples + "coastdown_bins.csv --mass 2203"},

@@ -1,5 +1,5 @@
 // Opens a page of rollrig in headless Chromium and checks it. One line a finding; exit status 1 where one is bad.
-// node check_page.mjs <page.html> [--charts N] [--animation] [--section] [--recording FILE.csv] [--shows TEXT] [--screenshots DIR]
+// node check_page.mjs <page.html> [--charts N] [--animation] [--section] [--equations N] [--recording FILE.csv] [--shows TEXT] [--screenshots DIR]
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
@@ -366,6 +366,10 @@ async function checkPage() {
   await checkHarmless('the page');
   const shown = option('--shows');
   if (shown) check(await chromium.evaluate(`document.querySelector('main').textContent.includes(${JSON.stringify(shown)})`), `the page shows ${shown}`);
+  if (option('--equations')) {
+    const drawn = await chromium.evaluate(`[...document.querySelectorAll('.equation math')].filter((math) => math.getBoundingClientRect().width > 20).length`);
+    check(drawn === Number(option('--equations')), `${drawn} equations are typeset, ${option('--equations')} wanted`);
+  }
   await checkAccess();
   await checkSaving();
   await checkTooltips();

@@ -5,6 +5,9 @@
 #include <regex>
 
 #include "report/blocks.h"
+#include "scenarios/run/scenario.h"
+#include "sim/core/file_io.h"
+#include "sim/core/parse_json.h"
 
 using namespace rollrig;
 using Catch::Contains;
@@ -60,4 +63,15 @@ TEST_CASE("numbers on a page have six digits, and what is not finite is null", "
   CHECK(report::rounded(std::nan("")).is_null());
   CHECK(report::pretty_unit("1/degC") == "1/°C");
   CHECK(plain_name("drum_torque_Nm") == "drum torque");
+}
+
+TEST_CASE("each equation of a page is of a scenario, or of the alignment of machines", "[fast]") {
+  const std::string path = std::string(ROLLRIG_SOURCE_DIR) + "/report/web/equations.json";
+  const Json equations = parse_json(read_text_file(path), path);
+  CHECK(equations.contains("iso_28580"));
+  for (const auto& [name, list] : equations.items()) {
+    INFO(name);
+    CHECK((name == "align" || scenarios::find_scenario_if_any(name) != nullptr));
+    for (const Json& equation : list) CHECK_FALSE(equation["text"].get<std::string>().empty());
+  }
 }

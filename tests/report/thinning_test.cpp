@@ -65,7 +65,8 @@ TEST_CASE("thinning keeps first, last and every extreme, and keeps to its bound"
 TEST_CASE("beside every row a row at least as high and one at least as low is kept", "[fast]") {
   const Made made = make_noisy(72000);
   constexpr std::size_t kMost = 2000;
-  constexpr std::size_t kNear = 72000 * 5 / kMost;  // rows of a stretch
+  constexpr std::size_t kKept = 9;  // rows of a stretch that are kept: extremes, ends, a gap, and sides of two steps
+  constexpr std::size_t kNear = 72000 * kKept / (kMost - 2) + kKept;  // rows of a stretch
   const std::vector<std::size_t> kept = thin(made.time_s, made.values, kMost);
   for (std::size_t row = 0; row < made.values.size(); row += 97) {
     double least = 1e9;
