@@ -156,16 +156,24 @@ void require_declared(const std::vector<std::string>& asked, const std::vector<s
 }
 
 /// Results shown in the terminal: as asked for, else the first of those that change, as many as fit the terminal.
-std::vector<std::string> choose_shown(const std::vector<std::string>& asked, const Json& json,
-                                      const SweepResult& sweep) {
+std::vector<std::string> choose_shown(const std::vector<std::string>& asked, const Json& json, const SweepResult& sweep,
+                                      const scenarios::Scenario& scenario) {
   require_known(asked, sweep.results);
   if (!asked.empty()) return asked;
   std::size_t width = 2;
   constexpr std::size_t kHeader = 14;  // longer ones take several lines
   for (const std::string& axis : sweep.axes) width += std::min(axis.size(), kHeader) + 2;
-  const std::vector<std::string> changing = report::list_changing(json);
+  std::vector<std::string> candidates = report::list_changing(json);
+  if (candidates.empty()) candidates = sweep.results;
+  const auto rank = [&scenario](const std::string& key) {
+    const auto at = std::find_if(scenario.headlines.begin(), scenario.headlines.end(),
+                                 [&key](const auto& headline) { return headline.first == key; });
+    return at - scenario.headlines.begin();
+  };
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [&rank](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
   std::vector<std::string> shown;
-  for (const std::string& key : changing.empty() ? sweep.results : changing) {
+  for (const std::string& key : candidates) {
     if (std::find(sweep.axes.begin(), sweep.axes.end(), key) != sweep.axes.end()) continue;
     const std::size_t own = std::min(key.size(), kHeader);
     if (width + own > terminal_columns() && !shown.empty()) break;
@@ -270,7 +278,7 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
       sweep.values.back().push_back(value.is_number() ? value.get<double>() : std::nan(""));
     }
   }
-  const std::vector<std::string> shown = choose_shown(items.input().shown, flat, sweep);
+  const std::vector<std::string> shown = choose_shown(items.input().shown, flat, sweep, *first.scenario);
   sweep.json = to_text(json);
   sweep.text = format_table(report::make_sweep_table(flat, format_count(records.size(), "run"), shown));
   sweep.text += list_failures(sweep);

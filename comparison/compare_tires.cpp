@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <set>
 
 #include "comparison/input_differences.h"
 #include "comparison/tire_document.h"
@@ -238,13 +238,10 @@ Compared compare_tires(const std::vector<TireFile>& tires, const std::vector<Vir
   comparison.inputs = find_different_inputs(pointers, {});
   comparison.method = {
       "virtual tests are quasi-static where the scenario can be, without sensors, each tire at the conditions of its "
-      "own "
-      "file",
+      "own file",
       "intervals of 95 % from the standard uncertainties (_sd) of the tire files and their correlation; the errors of "
-      "two "
-      "files are taken to be independent, and to be common where all numbers of both are equal. How well the law of "
-      "the "
-      "tire model describes a tire is not included"};
+      "two files are taken to be independent, and to be common where all numbers of both are equal. How well the law "
+      "of the tire model describes a tire is not included"};
   if (!comparison.values.empty()) choose_main(find_main_value(comparison.values), compared);
   return compared;
 }

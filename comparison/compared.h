@@ -48,7 +48,7 @@ std::string label_result(const std::string& key);
 
 /// Adds the interval of 95 % about the difference.
 void add_interval(double sd, double coverage_factor, Difference& difference);
-/// Adds an interval, or why there is none, to a difference that has a value.
+/// Says of a difference that has a value why it has no interval.
 void add_reason(const std::string& why, Difference& difference);
 
 /// Makes a value the main one, with a sentence on it for each but the reference: "RRc of b is 0.62 N/kN lower than that

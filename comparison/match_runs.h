@@ -17,7 +17,7 @@ struct RunConditions {
 };
 RunConditions find_conditions(const measurements::MeasuredRun& run);
 
-/// Of each run of the reference the index of that of the other set, or none. Runs of one id belong together; of the
+/// For each run of the reference, the index of its counterpart in the other set, or none. Runs of one id belong together; of the
 /// others, those at the same conditions, where no second one is: speed within 1 km/h, load within 2 %, cold pressure
 /// within 3 kPa, air and tire at the start within 3 K, duration within 10 %.
 /// Source   Assumed: all limits

@@ -1,6 +1,7 @@
 #include "comparison/mean_difference.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "estimation/uncertainty/budget.h"

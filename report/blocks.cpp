@@ -138,7 +138,9 @@ Block make_lead(const std::string& tone, const std::string& text, const std::str
 
 std::string pretty_unit(std::string symbol) {
   for (std::size_t at = symbol.find("degC"); at != std::string::npos; at = symbol.find("degC", at + 1)) {
-    if (at == 0 || symbol[at - 1] != '_') symbol.replace(at, 4, "°C");
+    const std::size_t first = symbol.find_last_of(' ', at) + 1;  // of no space: 0
+    const bool is_of_key = symbol.substr(first, symbol.find(' ', at) - first).find('_') != std::string::npos;
+    if (!is_of_key) symbol.replace(at, 4, "°C");
   }
   return symbol;
 }

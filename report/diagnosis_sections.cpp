@@ -34,9 +34,10 @@ std::string show_estimate(const ParameterEstimate& at) {
 
 std::string describe_shrinkage(const Gap& gap) {
   if (!gap.shrink_percent.has_value()) return "";
-  return fmt::format(" It takes {:.0f} % of the gap ({:.0f} to {:.0f} %) on {} that the fit did not see.",
-                     *gap.shrink_percent, gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1],
-                     gap.judged_by == JudgedBy::kStretches ? "stretches" : "runs");
+  return fmt::format(
+      " It takes {:.0f} % of the gap that recalibration leaves ({:.0f} to {:.0f} %) on {} that the fit did not see.",
+      *gap.shrink_percent, gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1],
+      gap.judged_by == JudgedBy::kStretches ? "stretches" : "runs");
 }
 
 /// A cause that is too small to matter: size, what it changes, probability.
@@ -233,7 +234,10 @@ Tile make_certainty_tile(const Findings& findings) {
     return tile(diagnosis::probability_of(findings, "unknown"), "probability of something outside the catalog",
                 "/probability/unknown");
   }
-  return tile(findings.causes.front().probability, "probability of this cause", "/causes/0/probability");
+  const Cause& cause = findings.causes.front();
+  Tile sure = tile(cause.probability, "probability that it acts", "/causes/0/probability");
+  if (cause.alone.has_value()) sure.note += fmt::format("; that nothing else does: {}", show_probability(*cause.alone));
+  return sure;
 }
 
 /// What the gap was and what the cause leaves of it.
@@ -323,7 +327,7 @@ Section make_causes(const Findings& findings) {
 
 Section make_base_numbers(const Findings& findings) {
   Section section{"Numbers of the files",
-                  "The recalibration moves each number within its standard uncertainty. Moves are in standard "
+                  "The recalibration weighs each move by the number's standard uncertainty. Moves are in standard "
                   "uncertainties. An uncertainty is that of the file (key _sd), or it is assumed: the usual one of an "
                   "identified number, or that of a value of the tire's class."};
   const char* sources[] = {"file", "assumed, usual", "assumed, class"};

@@ -85,7 +85,7 @@ class RowEvaluation {
     inputs.surface_K = inputs.surface_recorded ? (*columns_.surface)[row] : inputs.ambient_K;
     inputs.longitudinal_force_N = columns_.force != nullptr ? (*columns_.force)[row] : 0.0;
     inputs.air_density_ratio = 1.0;
-    // Filled at this instant; what that leaves of an effect on the pressure, the recorded resistance has.
+    // The pressure is the recorded one. An effect on it is already in the recorded resistance.
     now_.inflation = {(*columns_.pressure)[row], state_[corner_.state_of(Node::kGas)], kStandardAtmosphere_Pa};
   }
 

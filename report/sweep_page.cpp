@@ -4,6 +4,7 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "report/blocks.h"
 #include "report/list_pages.h"
@@ -124,7 +125,7 @@ std::string choose_drawn_axis(const Json& sweep, const std::vector<std::string>&
   return numeric != axes.end() ? *numeric : axes.front();
 }
 
-/// Whether there is a chart: of other words than tires, what is alike is not known.
+/// Whether there is a chart: an axis of words other than tires has no order.
 bool has_chart(const Json& sweep, const std::vector<std::string>& axes) {
   const std::string drawn = choose_drawn_axis(sweep, axes);
   return sweep["points"].size() > 1 && (drawn == kTireAxis || is_numeric_axis(sweep, drawn));
@@ -202,7 +203,7 @@ Block make_heat_map(const Json& sweep, const std::vector<std::string>& axes, con
       {"heads", {"", with_unit_of(name_axis(axes[1]), last_part(axes[1]))}},
       {"columns", columns},
       {"rows", map},
-      {"legend", fmt::format("Columns: {}. Warm: above the middle of the range, cool: below.",
+      {"legend", fmt::format("Columns: {}. Orange: above the middle of the range, blue: below.",
                              with_unit_of(name_axis(axes[0]), last_part(axes[0])))}};
 }
 
@@ -244,6 +245,46 @@ std::optional<double> calc_sensitivity_percent(const Json& sweep, const std::str
   return 100.0 * find_step(axis).size * xy / xx / mean_y;
 }
 
+/// Slopes from each value of an axis to the next, of the means over the other axes, likewise in percent a step; empty
+/// where the axis has two values.
+std::vector<double> list_local_percents(const Json& sweep, const std::string& axis, const std::string& key) {
+  std::map<double, std::pair<double, double>> sums;  // count and sum of the result by the axis's value
+  double mean = 0.0;
+  for (const Json& point : sweep["points"]) {
+    auto& [count, sum] = sums[axis_value(point, axis)];
+    ++count;
+    sum += result_value(point, key);
+    mean += result_value(point, key) / static_cast<double>(sweep["points"].size());
+  }
+  std::vector<double> percents;
+  if (sums.size() < 3) return percents;
+  for (auto at = sums.begin(); std::next(at) != sums.end(); ++at) {
+    const auto& [x, from] = *at;
+    const auto& [next_x, to] = *std::next(at);
+    percents.push_back(100.0 * find_step(axis).size * (to.second / to.first - from.second / from.first) / (next_x - x) /
+                       mean);
+  }
+  return percents;
+}
+
+/// The tile of a sensitivity; where the curve bends, the range of its slopes.
+Tile make_sensitivity_tile(const Json& sweep, const std::string& axis, const std::string& key, double percent) {
+  constexpr double kStraight = 0.5;  // Assumed: of the mean slope, by which a slope may differ from another
+  Tile tile{"Sensitivity to " + name_axis(axis),
+            fmt::format("{:+.2f}", percent),
+            "% per " + find_step(axis).text,
+            "straight line through all runs, of the mean",
+            "",
+            {}};
+  const std::vector<double> locals = list_local_percents(sweep, axis, key);
+  if (locals.empty()) return tile;
+  const auto [low, high] = std::minmax_element(locals.begin(), locals.end());
+  if (*high - *low <= kStraight * std::abs(percent)) return tile;
+  tile.value = fmt::format("{:+.2f} to {:+.2f}", *low, *high);
+  tile.note = "not straight: from one value to the next, of the mean";
+  return tile;
+}
+
 /// The first result's range, and its sensitivity to each axis.
 std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::vector<std::string>& axes, const std::string& key,
                                    const std::string& name) {
@@ -264,12 +305,7 @@ std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::vector<std::str
     if (!is_numeric_axis(sweep, axis)) continue;
     const std::optional<double> percent = calc_sensitivity_percent(sweep, axis, key);
     if (!percent.has_value()) continue;
-    tiles.push_back({"Sensitivity to " + name_axis(axis),
-                     fmt::format("{:+.2f}", *percent),
-                     "% per " + find_step(axis).text,
-                     "straight line through all runs, of the mean",
-                     "",
-                     {}});
+    tiles.push_back(make_sensitivity_tile(sweep, axis, key, *percent));
   }
   return tiles;
 }

@@ -88,12 +88,11 @@ struct Results {
     economy.visit_cycles(visit);
     visit(
         Headline{"Consumption", "{economy.last.dc_consumption_Wh_per_km}", "{economy.last.name}, out of the battery"});
-    visit(Headline{"Range", "{economy.last.range_km}", "{economy.last.name}"});
+    visit(Headline{"Range", "{economy.last.range_km}",
+                   "{economy.last.name}, as tested; on a label {economy.last.label_range_mi}"});
     visit(
         Headline{"First city cycle above later ones", "{first_city_excess_percent}", "battery energy: the cold start"});
-    visit(Headline{"Tires' share of the cold start", "{first_city_tire_share_percent}"});
-    visit(Headline{"Model above the ISO coefficient", "{sections.first.difference_percent}",
-                   "rolling resistance of one tire in {sections.first.name}, the coldest section"});
+    visit(Headline{"Tires' share of the cold start", "{first_city_tire_share_percent}", "of the excess at the hubs"});
   }
 };
 

@@ -7,7 +7,7 @@
 namespace rollrig::serve {
 namespace {
 
-/// What stands for places that a person at the page does not know.
+/// Whether an error names a file, and not an option or the page itself.
 bool is_place(const std::string& file) {
   return !file.empty() && file != "command line" && file != "--set" && file != "the page";
 }

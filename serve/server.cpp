@@ -36,7 +36,7 @@ RequestHead read_head(const httplib::Request& request) {
   RequestHead head;
   head.method = request.method;
   head.path = request.path;
-  // Of two hosts, one would be another's.
+  // Two Host headers count as none, so that the request is refused.
   head.host = request.get_header_value_count("Host") == 1 ? request.get_header_value("Host") : "";
   if (request.has_header("Origin")) head.origin = request.get_header_value("Origin");
   head.fetch_site = request.get_header_value("Sec-Fetch-Site");
@@ -54,7 +54,7 @@ RequestHead read_head(const httplib::Request& request) {
 }
 
 void put_json(const Json& json, httplib::Response& response) {
-  // What is not UTF-8 in a name, and null for numbers that are not finite, so that the page can read the answer.
+  // Invalid UTF-8 is replaced, and numbers that are not finite become null, so that the page can read the answer.
   response.set_content(json.dump(-1, ' ', false, Json::error_handler_t::replace), kJson);
 }
 

@@ -28,7 +28,7 @@ struct OwnInput {
   const char* key;
   std::optional<double> IsoAccuracies::*accuracy;
   double assumed;
-  std::optional<double> value;  // absent: the angle of the force cell
+  std::optional<double> value;  // absent: the angle of the force cell, as the test has it
 };
 
 /// A method in the budget. Another method is another row of the list in iso_method_budgets.cpp.

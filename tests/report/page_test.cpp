@@ -62,6 +62,7 @@ TEST_CASE("numbers on a page have six digits, and what is not finite is null", "
   CHECK(report::rounded(1.0 / 3.0) == Json(0.333333));
   CHECK(report::rounded(std::nan("")).is_null());
   CHECK(report::pretty_unit("1/degC") == "1/°C");
+  CHECK(report::pretty_unit("rrc_25degC_2m_N_per_kN") == "rrc_25degC_2m_N_per_kN");
   CHECK(plain_name("drum_torque_Nm") == "drum torque");
 }
 

@@ -232,3 +232,16 @@ TEST_CASE("numbers of tiles and tables are those of the JSON", "[slow]") {
     if (command.rfind("run", 0) == 0) check_tables(page, json);
   }
 }
+
+TEST_CASE("a sweep whose curve bends says the range of its slopes, and no single one", "[fast]") {
+  Json sweep = {{"scenario", "iso_28580"}, {"points", Json::array()}};
+  for (const int speed_km_h : {60, 80, 100}) {  // 5.0, 5.2 and 5.2: +2 % and 0 % per 10 km/h, about
+    sweep["points"].push_back({{"set", {{"speed_km_h", std::to_string(speed_km_h)}}},
+                               {"result", {{"rrc_25degC_2m_N_per_kN", speed_km_h == 60 ? 5.0 : 5.2}}}});
+  }
+  const report::Page page = report::make_sweep_page(sweep, {}, "");
+  const Json& tiles = page.sections.front().blocks[0]["tiles"];
+  REQUIRE(tiles.size() == 2);
+  CHECK(tiles[1]["value"] == "+0.00 to +1.95");  // 100 x 10 x 0.01 / 5.133
+  CHECK(tiles[1]["unit"] == "% per 10 km/h");
+}

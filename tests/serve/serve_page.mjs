@@ -93,11 +93,12 @@ export class ServePage {
     await this.#mouse('mouseReleased', at(shares.at(-1)), y);
   }
 
-  /// Replaces what stands in a field.
+  /// Replaces what stands in a field, and presses Enter.
   async type(selector, text) {
     await this.click(selector);
     await this.evaluate(`document.querySelector(${JSON.stringify(selector)}).select()`);
     await this.chromium.send('Input.insertText', { text });
+    for (const type of ['rawKeyDown', 'char', 'keyUp']) await this.chromium.send('Input.dispatchKeyEvent', { type, key: 'Enter', code: 'Enter', windowsVirtualKeyCode: 13, ...(type === 'char' ? { text: '\r' } : {}) });
   }
 
   /// Chooses an option as the keyboard does it; a list that opens is drawn by the system, outside of the page.

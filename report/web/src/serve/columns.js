@@ -12,15 +12,21 @@ function makeRow(target, { guessed, headings, said, onChange }) {
   const select = h('select', { 'aria-label': `column for ${target.name}`, 'data-target': target.name, onchange: () => {
     delete said.columns[target.name];
     delete said.values[target.name];
-    if (select.value === kConstant) said.values[target.name] = Number(constant.value) || 0;
-    else if (select.value !== kNone) said.columns[target.name] = select.value;
+    if (select.value === kConstant) {
+      constant.hidden = false; // asked for when it has a number
+      constant.focus();
+      return;
+    }
+    if (select.value !== kNone) said.columns[target.name] = select.value;
     onChange();
   } },
   h('option', { value: kNone, selected: shown === kNone }, guessed ? 'as guessed' : '\u2013'),
   headings.map((heading) => h('option', { value: heading.name, selected: shown === heading.name }, heading.name)),
   h('option', { value: kConstant, selected: shown === kConstant }, 'a constant'));
   const constant = h('input', { type: 'number', step: 'any', class: 'field', value: isConstant ? guessed.value : '', hidden: shown !== kConstant, 'aria-label': `constant for ${target.name}`, onchange: () => {
-    said.values[target.name] = constant.valueAsNumber || 0;
+    if (!Number.isFinite(constant.valueAsNumber)) return;
+    delete said.columns[target.name];
+    said.values[target.name] = constant.valueAsNumber;
     onChange();
   } });
   const unit = h('input', { type: 'text', class: 'unitfield', value: guessed?.unit ?? said.units[target.name] ?? '', hidden: shown === kConstant || shown === kNone, 'aria-label': `unit of ${target.name} in the log`, onchange: () => {

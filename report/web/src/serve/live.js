@@ -30,6 +30,17 @@ export class Live {
 
   async #workOff() {
     this.isBusy = true;
+    try {
+      await this.#answerAll();
+    } finally {
+      this.status.classList.remove('busy');
+      this.isBusy = false;
+    }
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => !this.isBusy && this.results.rest(), kRest_ms);
+  }
+
+  async #answerAll() {
     while (this.next) {
       const { request, changed_ms } = this.next;
       this.next = null;
@@ -44,10 +55,6 @@ export class Live {
       // The picture comes before the next question: else a slider that keeps moving would starve it.
       await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
     }
-    this.status.classList.remove('busy');
-    this.isBusy = false;
-    clearTimeout(this.rest);
-    this.rest = setTimeout(() => !this.isBusy && this.results.rest(), kRest_ms);
   }
 
   #show(answer, changed_ms) {
@@ -61,7 +68,7 @@ export class Live {
   #showProblem(problem) {
     const other = this.controls.setProblem(problem);
     this.message.replaceChildren(...(other ? [makeProblem(other)] : []));
-    this.status.textContent = 'The curves are those of the last run that went.';
+    this.status.textContent = 'The curves are those of the last run that succeeded.';
   }
 
   async #keep() {

@@ -72,10 +72,18 @@ function findPanelsInSight({ block, element }) {
   return block.panels.map((_, i) => i).filter((i) => top + (i + 1) * each > 0 && top + i * each < innerHeight);
 }
 
-/// What one looks at first: figures, then the test over time, then all else.
+const kFirst = ['tiles', 'lead', 'warnings'];
+
+/// What one looks at first: figures with their warnings, then the test over time, then all else. A section that has
+/// figures is in two parts: its tables come later.
 function sorted(sections) {
+  const parts = sections.flatMap((section) => {
+    if (!section.blocks.some((block) => block.type === 'tiles')) return [section];
+    const blocks = (isFirst) => section.blocks.filter((block) => kFirst.includes(block.type) === isFirst);
+    return [{ ...section, blocks: blocks(true) }, { ...section, title: `${section.title} in full`, blocks: blocks(false) }].filter((part) => part.blocks.length);
+  });
   const rank = (section) => (section.blocks.some((b) => ['tiles', 'lead'].includes(b.type)) ? 0 : section.blocks.some((b) => b.type === 'times') ? 1 : 2);
-  return sections.map((section, i) => ({ section, i })).sort((a, b) => rank(a.section) - rank(b.section) || a.i - b.i).map((one) => one.section);
+  return parts.map((section, i) => ({ section, i })).sort((a, b) => rank(a.section) - rank(b.section) || a.i - b.i).map((one) => one.section);
 }
 
 export class Results {

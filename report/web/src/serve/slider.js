@@ -40,7 +40,7 @@ export class Slider {
       h('div', { class: 'controlhead' }, h('label', { for: id, title: info.doc }, capitalized(info.label)), this.field, h('span', { class: 'unit' }, unitText(info.unit)), this.reset),
       this.range, this.message);
     this.range.addEventListener('input', () => this.#take(rounded(Number(this.range.value), this.step), onInput));
-    this.field.addEventListener('input', () => this.field.value !== '' && Number.isFinite(this.field.valueAsNumber) && this.#take(this.field.valueAsNumber, onInput));
+    this.field.addEventListener('change', () => this.field.value !== '' && Number.isFinite(this.field.valueAsNumber) && this.#take(this.field.valueAsNumber, onInput));
     this.reset.addEventListener('click', () => {
       this.value = null;
       if (this.fallback !== undefined) this.#show(this.fallback);
