@@ -58,6 +58,12 @@ bool are_equal(const TireFile& a, const TireFile& b) {
          });
 }
 
+/// "a50 does not give", or "neither file gives": what one of two files lacks.
+std::string find_missing(bool has_reference, bool has_other, std::size_t other, const Comparison& comparison) {
+  if (has_reference) return comparison.names[other] + " does not give";
+  return has_other ? comparison.names.front() + " does not give" : "neither file gives";
+}
+
 void add_numbers(const std::vector<TireFile>& tires, Comparison& comparison) {
   std::vector<std::map<std::string, TireNumber>> all;
   std::vector<std::string> keys;
@@ -90,16 +96,16 @@ void add_numbers(const std::vector<TireFile>& tires, Comparison& comparison) {
         add_interval(std::hypot(a, b), estimation::calc_coverage_factor(std::numeric_limits<double>::infinity()),
                      difference);
       } else {
-        add_reason(fmt::format("{} gives no standard uncertainty", a > 0.0   ? comparison.names[i]
-                                                                   : b > 0.0 ? comparison.names.front()
-                                                                             : "neither file"),
-                   difference);
+        add_reason(find_missing(a > 0.0, b > 0.0, i, comparison) + " a standard uncertainty", difference);
       }
       value.differences.push_back(difference);
     }
     comparison.values.push_back(std::move(value));
   }
 }
+
+/// How far a number is moved, in standard uncertainties: far enough to be seen, and not beyond what a tire can be.
+constexpr double kMoveStep = 0.1;
 
 /// A virtual test of one tire with its numbers as they are, then moved up and down along each direction.
 struct TireTest {
@@ -118,7 +124,7 @@ TireTest run_test(const RunSpec& spec, const std::function<void()>& advance) {
         RunSpec own = spec;
         if (i > 0) {
           Eigen::VectorXd z = Eigen::VectorXd::Zero(count);
-          z(static_cast<Eigen::Index>((i - 1) / 2)) = i % 2 == 1 ? 1.0 : -1.0;
+          z(static_cast<Eigen::Index>((i - 1) / 2)) = i % 2 == 1 ? kMoveStep : -kMoveStep;
           numbers.move(z, own.tire);
         }
         scenarios::Outcome outcome = scenarios::run_scenario(own, {});
@@ -143,7 +149,7 @@ std::optional<double> calc_result_sd(const TireTest& test, const std::string& ke
     const std::optional<double> above = find_result(test.results[i], key);
     const std::optional<double> below = find_result(test.results[i + 1], key);
     if (!above.has_value() || !below.has_value()) return std::nullopt;
-    variance += std::pow(0.5 * (*above - *below), 2);
+    variance += std::pow(0.5 * (*above - *below) / kMoveStep, 2);
   }
   return std::sqrt(variance);
 }
@@ -181,11 +187,8 @@ void add_results(const std::vector<TireFile>& tires, const VirtualTest& test, co
         add_interval(std::hypot(*a, *b), estimation::calc_coverage_factor(std::numeric_limits<double>::infinity()),
                      difference);
       } else {
-        add_reason(
-            fmt::format("{} gives no standard uncertainty of its numbers", a.has_value()   ? comparison.names[i]
-                                                                           : b.has_value() ? comparison.names.front()
-                                                                                           : "neither file"),
-            difference);
+        add_reason(find_missing(a.has_value(), b.has_value(), i, comparison) + " a standard uncertainty of its numbers",
+                   difference);
       }
       value.differences.push_back(difference);
     }

@@ -23,10 +23,14 @@ Difference subtract(const std::optional<double>& value, const std::optional<doub
 std::string label_result(const std::string& key) {
   const std::size_t last = key.rfind('.');
   std::string own = plain_name(last == std::string::npos ? key : key.substr(last + 1));
+  constexpr const char* kDeviation = "_sd";
+  if (key.size() > 3 && key.compare(key.size() - 3, 3, kDeviation) == 0) own += ", standard deviation";
   if (own.rfind("rrc", 0) == 0) own.replace(0, 3, "RRc");
   if (own == "RRc 25degC 2m") own = "RRc at 25 degC, 2 m drum";
   if (last == std::string::npos) return own;
-  std::string record = key.substr(0, last);
+  std::string record = key.substr(0, last);  // "force_N.1": without the unit of the list
+  const std::size_t dot = record.find('.');
+  if (dot != std::string::npos) record = plain_name(record.substr(0, dot)) + record.substr(dot);
   std::replace(record.begin(), record.end(), '.', ' ');
   std::replace(record.begin(), record.end(), '_', ' ');
   return fmt::format("{}: {}", record, own);

@@ -7,6 +7,7 @@
 
 #include "comparison/comparison_json.h"
 #include "report/blocks.h"
+#include "report/readings.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
 
@@ -131,7 +132,9 @@ Json make_overlay_series(const std::string& name, const OverlayLine& line, std::
 
 Block make_overlay_block(const Comparison& comparison, const Overlay& overlay, std::size_t most) {
   Json phases = Json::array();
+  std::vector<std::pair<double, double>> spans_s;
   for (const comparison::OverlayPhase& phase : overlay.phases) {
+    spans_s.emplace_back(phase.start_s, phase.end_s);
     phases.push_back({{"name", phase.name}, {"start_s", rounded(phase.start_s)}, {"end_s", rounded(phase.end_s)}});
   }
   Json panels = Json::array();
@@ -140,6 +143,9 @@ Block make_overlay_block(const Comparison& comparison, const Overlay& overlay, s
     Json series = Json::array();
     for (std::size_t i = 0; i < panel.lines.size(); ++i) {
       series.push_back(make_overlay_series(comparison.names[i], panel.lines[i], most));
+      if (!spans_s.empty()) {
+        series.back()["phases"] = summarize_spans(panel.lines[i].time_s, panel.lines[i].values, spans_s);
+      }
       if (!panel.lines[i].time_s.empty()) end_s = std::max(end_s, panel.lines[i].time_s.back());
     }
     panels.push_back(

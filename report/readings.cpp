@@ -85,4 +85,18 @@ Json summarize_phases(const sim::Recording<double>& recording, const std::vector
   return phases;
 }
 
+Json summarize_spans(const std::vector<double>& time_s, const std::vector<double>& values,
+                     const std::vector<std::pair<double, double>>& spans_s) {
+  constexpr double kSame_s = 1e-6;
+  const auto find_row = [&time_s](double at_s) {
+    return static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), at_s) - time_s.begin());
+  };
+  Json spans = Json::array();
+  for (std::size_t i = 0; i < spans_s.size(); ++i) {
+    const double end_s = spans_s[i].second + (i + 1 == spans_s.size() ? kSame_s : -kSame_s);
+    spans.push_back(summarize(time_s, values, find_row(spans_s[i].first - kSame_s), find_row(end_s)));
+  }
+  return spans;
+}
+
 }  // namespace rollrig::report

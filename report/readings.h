@@ -21,5 +21,8 @@ Json make_recorded(const std::vector<double>& time_s, const std::vector<double>&
 /// row at the end of a phase belongs to the next one.
 /// Checked  tests/report/readings_test.cpp
 Json summarize_phases(const sim::Recording<double>& recording, const std::vector<double>& values);
+/// The same of spans of time, each with the rows from its start to before its end; of the last, its end too.
+Json summarize_spans(const std::vector<double>& time_s, const std::vector<double>& values,
+                     const std::vector<std::pair<double, double>>& spans_s);
 
 }  // namespace rollrig::report

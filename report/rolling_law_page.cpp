@@ -204,6 +204,24 @@ std::vector<Tile> make_reference_tiles(const ForceEstimate& force, const estimat
           std::move(loss)};
 }
 
+/// RRc by the law in the middle of the points, where there is no reference condition.
+Tile make_middle_tile(const J2452Fit& fit) {
+  const auto count = static_cast<double>(fit.points.size());
+  double pressure_Pa = 0.0, load_N = 0.0, speed_m_s = 0.0;
+  for (const FittedPoint& at : fit.points) {
+    pressure_Pa += at.point.pressure_Pa / count;
+    load_N += at.point.load_N / count;
+    speed_m_s += at.point.speed_m_s / count;
+  }
+  return {"RRc in the middle of the points",
+          fmt::format("{:.3f}", 1e3 * fit.law.calc_force_N(pressure_Pa, load_N, speed_m_s) / load_N),
+          "N/kN",
+          fmt::format("by the law at {:.0f} km/h, {:.0f} N and {:.0f} kPa", kKmhPerMs * speed_m_s, load_N,
+                      1e-3 * pressure_Pa),
+          "",
+          {}};
+}
+
 }  // namespace
 
 std::vector<Table> make_j2452_tables(const J2452Fit& fit, const std::optional<J2452Reference>& reference) {
@@ -238,9 +256,16 @@ Page make_j2452_page(const estimation::RollingTest& test, const J2452Fit& fit,
                      "SMERF: 0.55 of the urban and 0.45 of the highway cycle",
                      "",
                      {"/reference/smerf/value_N"}});
+  } else {
+    tiles.push_back(make_middle_tile(fit));
   }
-  tiles.push_back({"Pressure exponent", fmt::format("{:.3f}", fit.law.alpha), "", "alpha of the law", "", {}});
-  tiles.push_back({"Load exponent", fmt::format("{:.3f}", fit.law.beta), "", "beta of the law", "", {}});
+  tiles.push_back({"Pressure exponent",
+                   fmt::format("{:.3f}", fit.law.alpha),
+                   "",
+                   "alpha: rolling resistance goes with pressure to this power",
+                   "",
+                   {}});
+  tiles.push_back({"Load exponent", fmt::format("{:.3f}", fit.law.beta), "", "beta: likewise with load", "", {}});
   result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
   page.add(std::move(result));
   page.add({"Points and law", "", {make_equations("sae_j2452"), make_speed_chart(fit)}});

@@ -76,7 +76,7 @@ ssize_t Connection::write(const char* data, std::size_t size) {
 
 void Connection::close() {
   ::shutdown(socket_, SHUT_WR);
-  deadline_ = Clock::now() + limits_.linger;
+  deadline_ = Clock::now() + (head_bytes_ > 0 ? limits_.linger : std::chrono::milliseconds(0));
   while (wait_for(POLLIN) && ::recv(socket_, buffer_.data(), buffer_.size(), 0) > 0) {
   }
   ::close(socket_);

@@ -18,7 +18,7 @@ AnswerThreads::~AnswerThreads() { shutdown(); }
 
 void AnswerThreads::enqueue(std::function<void()> answer) {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.size() < kMostConnections; });
+  changed_.wait(lock, [this] { return is_ending_ || waiting_.size() < kMostConnections; });
   waiting_.push_back(std::move(answer));
   changed_.notify_all();
 }
@@ -40,7 +40,7 @@ void AnswerThreads::work_off() {
     {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return is_ending_ || !waiting_.empty(); });
-      if (waiting_.empty()) return;
+      if (is_ending_) return;  // who still waits is not answered: the server ends soon
       answer = std::move(waiting_.front());
       waiting_.pop_front();
     }
@@ -50,6 +50,10 @@ void AnswerThreads::work_off() {
 }
 
 HttpServer::HttpServer(const ConnectionLimits& limits) : limits_(limits) {
+  set_socket_options([](socket_t socket) {  // without SO_REUSEPORT: a second server on a port that is taken is refused
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
   new_task_queue = [] { return new AnswerThreads; };  // NOLINT: cpp-httplib deletes it
 }
 

@@ -62,7 +62,12 @@ SetDesk::DroppedSet SetDesk::copy_of(int id) const {
 
 Json SetDesk::open(const Json& request) {
   std::string name = text_of(request, "name");
-  name.resize(std::min<std::size_t>(name.size(), 100));
+  constexpr std::size_t kLongestName = 100;
+  if (name.size() > kLongestName) {
+    std::size_t end = kLongestName;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;  // not inside of a character
+    name.resize(end);
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   if (sets_.size() >= kMostSets) {
     std::error_code ignored;

@@ -8,22 +8,37 @@
 #include <string>
 #include <utility>
 
+#include "sim/core/error.h"
 #include "sim/core/interrupt.h"
 
 namespace rollrig::estimation {
 namespace {
 
-/// How far each result moves when one input moves by its standard uncertainty, per result.
-std::vector<double> calc_moves(const MeasurementModel& model, std::vector<double> inputs, std::size_t moved) {
-  const double u = model.inputs[moved].standard_uncertainty;
-  if (u == 0.0) return std::vector<double>(model.measurands.size(), 0.0);
+/// Half of the difference of the results between an input that is moved up and down by a step.
+std::vector<double> calc_half_difference(const MeasurementModel& model, std::vector<double> inputs, std::size_t moved,
+                                         double step) {
   const double center = inputs[moved];
-  inputs[moved] = center + u;
+  inputs[moved] = center + step;
   std::vector<double> moves = model.evaluate(inputs);
-  inputs[moved] = center - u;
+  inputs[moved] = center - step;
   const std::vector<double> below = model.evaluate(inputs);
   for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = 0.5 * (moves[i] - below[i]);
   return moves;
+}
+
+/// How far each result moves when one input moves by its standard uncertainty, per result. Where the model fails so far
+/// away, as for numbers that no tire has, from a tenth of it.
+std::vector<double> calc_moves(const MeasurementModel& model, const std::vector<double>& inputs, std::size_t moved) {
+  const double u = model.inputs[moved].standard_uncertainty;
+  if (u == 0.0) return std::vector<double>(model.measurands.size(), 0.0);
+  try {
+    return calc_half_difference(model, inputs, moved, u);
+  } catch (const RunFailure&) {
+    constexpr double kShare = 0.1;
+    std::vector<double> moves = calc_half_difference(model, inputs, moved, kShare * u);
+    for (double& move : moves) move /= kShare;
+    return moves;
+  }
 }
 
 /// Adds a line, or, to one of the same name, its variance.

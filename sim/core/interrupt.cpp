@@ -25,6 +25,7 @@ void clear_interrupt() { interrupted = false; }
 void install_interrupt_handler() {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
+  if (std::signal(SIGHUP, note_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup: the terminal may close
 }
 
 void throw_if_interrupted() {

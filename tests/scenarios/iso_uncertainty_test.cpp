@@ -106,9 +106,9 @@ TEST_CASE("what each method alone rests on contributes as its closed form says",
   // A larger drum lowers 1 + r/R.
   CHECK(force.contribution("drum diameter", 1) == Approx(rrc * relative * radius_m / (1.0 + radius_m)).epsilon(0.01));
   // A zero cancels but for the two radii.
-  const double offset_N = force.model.inputs[force.place("zero of torque or force")].standard_uncertainty;
+  const double offset_N = force.model.inputs[force.place("zero of the spindle force")].standard_uncertainty;
   REQUIRE(offset_N > 0.0);
-  CHECK(force.contribution("zero of torque or force", 1) ==
+  CHECK(force.contribution("zero of the spindle force", 1) ==
         Approx(offset_N * (skim_radius_m - radius_m) / load_N).epsilon(1e-3));
 
   const IsoRun power(make_iso({"method=power"}));
