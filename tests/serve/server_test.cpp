@@ -233,6 +233,22 @@ TEST_CASE("junk is refused, the server lives, memory stays flat", "[slow]") {
   CHECK(find_memory_MiB() - before_MiB < 20.0);  // of 150 MB that were sent
 }
 
+TEST_CASE("no answer is compressed, which takes longer than a run", "[fast]") {
+  const Bench bench;
+  httplib::Client browser = bench.make_client();
+  browser.set_decompress(false);
+  const httplib::Headers accepts{{"Accept-Encoding", "gzip, deflate, br"}};
+  const auto page = browser.Get("/?token=" + bench.server.token(), accepts);
+  REQUIRE(page);
+  CHECK(page->status == 200);
+  CHECK_FALSE(page->has_header("Content-Encoding"));
+  CHECK_THAT(page->body, Catch::StartsWith("<!doctype html>"));
+  const auto run = browser.Post("/api/run", accepts, kRun.dump(), "application/json");
+  REQUIRE(run);
+  CHECK(run->status == 200);
+  CHECK_FALSE(run->has_header("Content-Encoding"));
+}
+
 TEST_CASE("a hundred clients are answered, one after the other", "[slow]") {
   const Bench bench;
   for (int i = 0; i < 4; ++i) bench.post("/api/run", kRun);
