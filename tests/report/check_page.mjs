@@ -173,10 +173,11 @@ const kNumbersOf = {
   bars: (b) => b.series.flatMap((s) => [s.values, s.low, s.high]),
   curves: (b) => b.series.flatMap((s) => [s.x, s.y, s.low, s.high]),
   energy: (b) => b.ledgers.map((l) => l.terms.map((t) => t.in_J)),
+  forest: (b) => b.rows.flatMap((row) => [row, row.prior].filter(Boolean).map(({ value, low, high }) => [value, low, high])),
   times: (b) => [[...new Set(b.panels.flatMap((p) => p.series.flatMap((s) => s.t)))], ...b.panels.flatMap((p) => p.series.map((s) => s.y))],
   waterfall: (b) => ['value', 'low', 'high'].map((key) => [b.start, ...b.steps, b.end].map((bar) => bar[key])),
 };
-const kTextColumns = /^(balance|category|kind|series|step|term|.*_note)$/;
+const kTextColumns = /^(balance|category|kind|name|series|step|term|unit|.*_note)$/;
 const sorted = (numbers) => numbers.flat().filter((n) => typeof n === 'number').sort((a, b) => a - b).join();
 
 /// The cells of a line of CSV.
