@@ -176,6 +176,6 @@ TEST_CASE("every command of the page on files of one's own works as printed", "[
   check_commands("docs/own_tire_and_set.md");
 }
 
-TEST_CASE("every command of the page on validation works as printed", "[slow]") {
+TEST_CASE("every command of the page on validation works as printed", "[weekly]") {
   check_commands("docs/validation.md");
 }
