@@ -156,8 +156,8 @@ void require_declared(const std::vector<std::string>& asked, const std::vector<s
 }
 
 /// Results shown in the terminal: as asked for, else the first of those that change, as many as fit the terminal.
-std::vector<std::string> choose_shown(const std::vector<std::string>& asked, const Json& json, const SweepResult& sweep,
-                                      const scenarios::Scenario& scenario) {
+std::vector<std::string> choose_shown(const std::vector<std::string>& asked, const Json& json,
+                                      const SweepResult& sweep) {
   require_known(asked, sweep.results);
   if (!asked.empty()) return asked;
   std::size_t width = 2;
@@ -165,13 +165,6 @@ std::vector<std::string> choose_shown(const std::vector<std::string>& asked, con
   for (const std::string& axis : sweep.axes) width += std::min(axis.size(), kHeader) + 2;
   std::vector<std::string> candidates = report::list_changing(json);
   if (candidates.empty()) candidates = sweep.results;
-  const auto rank = [&scenario](const std::string& key) {
-    const auto at = std::find_if(scenario.headlines.begin(), scenario.headlines.end(),
-                                 [&key](const auto& headline) { return headline.first == key; });
-    return at - scenario.headlines.begin();
-  };
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [&rank](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
   std::vector<std::string> shown;
   for (const std::string& key : candidates) {
     if (std::find(sweep.axes.begin(), sweep.axes.end(), key) != sweep.axes.end()) continue;
@@ -278,7 +271,7 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
       sweep.values.back().push_back(value.is_number() ? value.get<double>() : std::nan(""));
     }
   }
-  const std::vector<std::string> shown = choose_shown(items.input().shown, flat, sweep, *first.scenario);
+  const std::vector<std::string> shown = choose_shown(items.input().shown, flat, sweep);
   sweep.json = to_text(json);
   sweep.text = format_table(report::make_sweep_table(flat, format_count(records.size(), "run"), shown));
   sweep.text += list_failures(sweep);

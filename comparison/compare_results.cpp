@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <tuple>
 
 #include "comparison/budget_difference.h"
 #include "comparison/energy_waterfall.h"
+#include "comparison/flat_values.h"
 #include "comparison/input_differences.h"
 #include "comparison/overlay.h"
 #include "comparison/result_folder.h"
@@ -37,44 +38,6 @@ const Json* find_budget(const ResultFolder& folder, const std::string& key) {
     if (budget.at("key") == key) return &budget;
   }
   return nullptr;
-}
-
-std::string find_declared_doc(const std::string& scenario, const std::string& key) {
-  const scenarios::Scenario* found = scenarios::find_scenario_if_any(scenario);
-  if (found == nullptr) return "";
-  for (const scenarios::ResultInfo& info : found->results) {
-    if (info.key == scenarios::find_declared_key(key)) return info.doc;
-  }
-  return "";
-}
-
-std::optional<double> find_number(const Json& flat, const std::string& key) {
-  const auto found = flat.find(key);
-  return found != flat.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
-}
-
-/// Results of all by one key, and their differences without intervals.
-ComparedValue make_value(const std::string& key, const std::vector<Json>& flat) {
-  ComparedValue value;
-  value.name = key;
-  value.label = label_result(key);
-  value.unit = unit_of_key(key.substr(key.rfind('.') + 1)).symbol;
-  for (const Json& of : flat) value.values.push_back(find_number(of, key));
-  for (std::size_t i = 1; i < flat.size(); ++i) {
-    value.differences.push_back(subtract(value.values[i], value.values.front(), value.unit));
-  }
-  return value;
-}
-
-std::vector<std::string> list_keys(const std::vector<Json>& flat) {
-  std::vector<std::string> keys;
-  std::set<std::string> known;
-  for (const Json& of : flat) {
-    for (const auto& [key, value] : of.items()) {
-      if (known.insert(key).second) keys.push_back(key);
-    }
-  }
-  return keys;
 }
 
 SharedInputs find_shared(const ResultFolder& reference, const ResultFolder& other) {
@@ -216,17 +179,14 @@ void add_waterfalls(const std::vector<ResultFolder>& folders, Comparison& compar
 /// The result that matters most: an RRc, else one with an interval, else the one that differs most by its size.
 void choose_main_result(Compared& compared) {
   const std::vector<ComparedValue>& values = compared.comparison.values;
+  const auto weigh = [](const ComparedValue& value) {
+    const Difference& first = value.differences.front();
+    return std::make_tuple(value.name == kMainResult, first.sd.has_value(), std::abs(first.percent.value_or(0.0)));
+  };
   std::optional<std::size_t> chosen;
-  double most = -1.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const Difference& first = values[i].differences.front();
-    if (!first.value.has_value() || values[i].unit == "s") continue;
-    double weight = 1e-6 * std::abs(first.percent.value_or(0.0));
-    if (first.sd.has_value()) weight += 1e3;
-    if (values[i].name == "rrc_25degC_2m_N_per_kN") weight += 1e6;
-    if (weight <= most) continue;
-    most = weight;
-    chosen = i;
+    if (!values[i].differences.front().value.has_value() || values[i].unit == "s") continue;
+    if (!chosen.has_value() || weigh(values[i]) > weigh(values[*chosen])) chosen = i;
   }
   if (chosen.has_value()) choose_main(*chosen, compared);
 }
@@ -245,10 +205,9 @@ Compared compare_folders(const std::vector<ResultFolder>& folders, const std::ve
   comparison.inputs = find_different_inputs(manifests, {"format", "rollrig", "integrator"});
   std::vector<Json> flat = scenarios::flatten_results(results);
   add_budget_values(folders, flat);
-  for (const std::string& key : list_keys(flat)) {
-    comparison.values.push_back(make_value(key, flat));
-    comparison.values.back().doc = find_declared_doc(folders.front().result.at("scenario"), key);
-  }
+  const scenarios::Scenario* scenario =
+      scenarios::find_scenario_if_any(folders.front().result.at("scenario").get<std::string>());
+  for (const std::string& key : list_keys(flat)) comparison.values.push_back(make_value(key, flat, scenario));
   add_intervals(folders, comparison);
   describe_shared(folders, comparison);
   add_waterfalls(folders, comparison);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "comparison/flat_values.h"
 #include "comparison/input_differences.h"
 #include "comparison/tire_document.h"
 #include "estimation/uncertainty/budget.h"
@@ -64,6 +65,19 @@ std::string find_missing(bool has_reference, bool has_other, std::size_t other, 
   return has_other ? comparison.names.front() + " does not give" : "neither file gives";
 }
 
+/// The interval of a difference whose two values have these standard uncertainties; why there is none, where one lacks.
+void settle(std::optional<double> reference_sd, std::optional<double> other_sd, bool are_same, const std::string& why,
+            Difference& difference) {
+  if (are_same) {
+    add_interval(0.0, 0.0, difference);
+  } else if (reference_sd.has_value() && other_sd.has_value()) {
+    add_interval(std::hypot(*reference_sd, *other_sd),
+                 estimation::calc_coverage_factor(std::numeric_limits<double>::infinity()), difference);
+  } else {
+    add_reason(why, difference);
+  }
+}
+
 void add_numbers(const std::vector<TireFile>& tires, Comparison& comparison) {
   std::vector<std::map<std::string, TireNumber>> all;
   std::vector<std::string> keys;
@@ -88,16 +102,12 @@ void add_numbers(const std::vector<TireFile>& tires, Comparison& comparison) {
     if (!is_given) continue;  // of a table that no file has
     for (std::size_t i = 1; i < tires.size(); ++i) {
       Difference difference = subtract(value.values[i], value.values.front(), value.unit);
-      const double a = all.front()[key].sd;
-      const double b = all[i][key].sd;
-      if (are_equal(tires.front(), tires[i])) {
-        add_interval(0.0, 0.0, difference);
-      } else if (a > 0.0 && b > 0.0) {
-        add_interval(std::hypot(a, b), estimation::calc_coverage_factor(std::numeric_limits<double>::infinity()),
-                     difference);
-      } else {
-        add_reason(find_missing(a > 0.0, b > 0.0, i, comparison) + " a standard uncertainty", difference);
-      }
+      const auto find_sd = [&key](std::map<std::string, TireNumber>& numbers) {
+        return numbers[key].sd > 0.0 ? std::optional(numbers[key].sd) : std::nullopt;
+      };
+      const std::optional<double> a = find_sd(all.front()), b = find_sd(all[i]);
+      settle(a, b, are_equal(tires.front(), tires[i]),
+             find_missing(a.has_value(), b.has_value(), i, comparison) + " a standard uncertainty", difference);
       value.differences.push_back(difference);
     }
     comparison.values.push_back(std::move(value));
@@ -136,61 +146,31 @@ TireTest run_test(const RunSpec& spec, const std::function<void()>& advance) {
   return test;
 }
 
-std::optional<double> find_result(const Json& flat, const std::string& key) {
-  const auto found = flat.find(key);
-  return found != flat.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
-}
-
 /// Standard uncertainty of a result by the numbers of the tire file; none where these have none.
 std::optional<double> calc_result_sd(const TireTest& test, const std::string& key) {
   if (test.results.size() == 1) return std::nullopt;
   double variance = 0.0;
   for (std::size_t i = 1; i < test.results.size(); i += 2) {
-    const std::optional<double> above = find_result(test.results[i], key);
-    const std::optional<double> below = find_result(test.results[i + 1], key);
+    const std::optional<double> above = find_number(test.results[i], key);
+    const std::optional<double> below = find_number(test.results[i + 1], key);
     if (!above.has_value() || !below.has_value()) return std::nullopt;
     variance += std::pow(0.5 * (*above - *below) / kMoveStep, 2);
   }
   return std::sqrt(variance);
 }
 
-std::string find_result_doc(const scenarios::Scenario& scenario, const std::string& key) {
-  for (const scenarios::ResultInfo& info : scenario.results) {
-    if (info.key == scenarios::find_declared_key(key)) return info.doc;
-  }
-  return "";
-}
-
 void add_results(const std::vector<TireFile>& tires, const VirtualTest& test, const std::vector<TireTest>& done,
                  Comparison& comparison) {
-  std::vector<std::string> keys;
-  for (const TireTest& one : done) {
-    for (const auto& [key, number] : one.results.front().items()) {
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
-    }
-  }
-  for (const std::string& key : keys) {
-    ComparedValue value;
-    value.name = key;
+  std::vector<Json> flat;
+  for (const TireTest& one : done) flat.push_back(one.results.front());
+  for (const std::string& key : list_keys(flat)) {
+    ComparedValue value = make_value(key, flat, test.runs.front().scenario);
     value.place = test.scenario;
-    value.label = label_result(key);
-    value.unit = unit_of_key(key.substr(key.rfind('.') + 1)).symbol;
-    value.doc = find_result_doc(*test.runs.front().scenario, key);
-    for (const TireTest& one : done) value.values.push_back(find_result(one.results.front(), key));
     for (std::size_t i = 1; i < done.size(); ++i) {
-      Difference difference = subtract(value.values[i], value.values.front(), value.unit);
-      const std::optional<double> a = calc_result_sd(done.front(), key);
-      const std::optional<double> b = calc_result_sd(done[i], key);
-      if (are_equal(tires.front(), tires[i])) {
-        add_interval(0.0, 0.0, difference);
-      } else if (a.has_value() && b.has_value()) {
-        add_interval(std::hypot(*a, *b), estimation::calc_coverage_factor(std::numeric_limits<double>::infinity()),
-                     difference);
-      } else {
-        add_reason(find_missing(a.has_value(), b.has_value(), i, comparison) + " a standard uncertainty of its numbers",
-                   difference);
-      }
-      value.differences.push_back(difference);
+      const std::optional<double> a = calc_result_sd(done.front(), key), b = calc_result_sd(done[i], key);
+      settle(a, b, are_equal(tires.front(), tires[i]),
+             find_missing(a.has_value(), b.has_value(), i, comparison) + " a standard uncertainty of its numbers",
+             value.differences[i - 1]);
     }
     comparison.values.push_back(std::move(value));
   }
@@ -202,8 +182,8 @@ const char* name_of_basis(models::TireBasis basis) {
 
 /// RRc as ISO 28580 has it, else the first value.
 std::size_t find_main_value(const std::vector<ComparedValue>& values) {
-  const auto rrc = std::find_if(values.begin(), values.end(),
-                                [](const ComparedValue& value) { return value.name == "rrc_25degC_2m_N_per_kN"; });
+  const auto rrc =
+      std::find_if(values.begin(), values.end(), [](const ComparedValue& value) { return value.name == kMainResult; });
   return rrc != values.end() ? static_cast<std::size_t>(rrc - values.begin()) : 0;
 }
 

@@ -17,9 +17,9 @@ struct RunConditions {
 };
 RunConditions find_conditions(const measurements::MeasuredRun& run);
 
-/// For each run of the reference, the index of its counterpart in the other set, or none. Runs of one id belong together; of the
-/// others, those at the same conditions, where no second one is: speed within 1 km/h, load within 2 %, cold pressure
-/// within 3 kPa, air and tire at the start within 3 K, duration within 10 %.
+/// For each run of the reference, the index of its counterpart in the other set, or none. Runs of one id belong
+/// together; of the others, those at the same conditions, where no second one is: speed within 1 km/h, load within 2 %,
+/// cold pressure within 3 kPa, air and tire at the start within 3 K, duration within 10 %.
 /// Source   Assumed: all limits
 /// Checked  tests/comparison/match_runs_test.cpp
 std::vector<std::optional<std::size_t>> match_runs(const std::vector<measurements::MeasuredRun>& reference,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/blocks.h"
+#include "scenarios/run/scenario.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
 
@@ -17,6 +18,19 @@ std::vector<std::string> find_axes(const Json& sweep) {
   std::vector<std::string> axes;
   for (const auto& [key, value] : sweep["points"].front()["set"].items()) axes.push_back(key);
   return axes;
+}
+
+/// Moves what the scenario declares as headlines to the front, in the order of the declarations.
+void put_headlines_first(const Json& sweep, std::vector<std::string>& keys) {
+  const scenarios::Scenario* scenario = scenarios::find_scenario_if_any(sweep["scenario"].get<std::string>());
+  if (scenario == nullptr) return;
+  const auto& headlines = scenario->headlines;
+  const auto rank = [&headlines](const std::string& key) {
+    return std::find_if(headlines.begin(), headlines.end(), [&key](const auto& one) { return one.first == key; }) -
+           headlines.begin();
+  };
+  std::stable_sort(keys.begin(), keys.end(),
+                   [&rank](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
 }
 
 /// Not of a list.
@@ -66,6 +80,7 @@ std::vector<std::string> list_changing(const Json& sweep) {
     });
     if (changes) keys.push_back(key);
   }
+  put_headlines_first(sweep, keys);
   return keys;
 }
 

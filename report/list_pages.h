@@ -12,7 +12,7 @@ namespace rollrig::report {
 /// Keys of the results that one point of a sweep's document has at least, in order. Here and below, the results of the
 /// document are flat (scenarios::flatten_results).
 std::vector<std::string> list_numbers(const Json& sweep);
-/// Those that are not the same at every point; times of evaluation do not count.
+/// Those that are not the same at every point, headlines of the scenario first; times of evaluation do not count.
 std::vector<std::string> list_changing(const Json& sweep);
 
 /// Of those that change the ones that have a chart where none is named: those that are in no list, else the first of

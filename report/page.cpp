@@ -4,22 +4,10 @@
 
 #include <boost/algorithm/string/replace.hpp>
 
-// The page without its data, page_template.html, is made of report/web (CMakeLists.txt). The assembler takes it in, and
-// finds it from the project's root: a literal of that size would take the compiler long.
-asm(R"(
-  .pushsection .rodata
-  .globl rollrig_page_template_begin, rollrig_page_template_end
-  .hidden rollrig_page_template_begin, rollrig_page_template_end
-rollrig_page_template_begin:
-  .incbin "report/page_template.html"
-rollrig_page_template_end:
-  .popsection
-)");
+#include "sim/core/embed.h"
 
-extern "C" {
-extern const char rollrig_page_template_begin[];  // NOLINT: a name of the assembler's
-extern const char rollrig_page_template_end[];    // NOLINT
-}
+// The page without its data, made of report/web (CMakeLists.txt).
+ROLLRIG_EMBED(rollrig_page_template, "report/page_template.html")
 
 namespace rollrig::report {
 namespace {

@@ -78,16 +78,8 @@ bool are_proportional(const std::vector<double>& a, const std::vector<double>& b
   return true;
 }
 
-/// What has a chart where none is named: headlines first, nothing twice, not what is varied itself.
-std::vector<std::string> order_charts(const Json& sweep, const Headlines& headlines) {
-  std::vector<std::string> ordered = choose_charts(sweep);
-  const auto rank = [&headlines](const std::string& key) {
-    const auto at =
-        std::find_if(headlines.begin(), headlines.end(), [&key](const auto& one) { return one.first == key; });
-    return at - headlines.begin();
-  };
-  std::stable_sort(ordered.begin(), ordered.end(),
-                   [&rank](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+/// What has a chart where none is named: nothing twice, not what is varied itself.
+std::vector<std::string> drop_doubles(const Json& sweep) {
   std::vector<std::vector<double>> seen;
   for (const std::string& axis : list_axes(sweep)) {
     if (!is_numeric_axis(sweep, axis)) continue;
@@ -95,7 +87,7 @@ std::vector<std::string> order_charts(const Json& sweep, const Headlines& headli
     for (const Json& point : sweep["points"]) seen.back().push_back(axis_value(point, axis));
   }
   std::vector<std::string> chosen;
-  for (const std::string& key : ordered) {
+  for (const std::string& key : choose_charts(sweep)) {
     const std::vector<double> values = list_results(sweep, key);
     const bool is_known =
         std::any_of(seen.begin(), seen.end(), [&values](const auto& one) { return are_proportional(values, one); });
@@ -354,7 +346,7 @@ Section make_runs_of_sweep(const Json& sweep, const std::vector<std::string>& sh
 
 Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const std::string& subtitle) {
   const Headlines headlines = find_headlines(sweep);
-  if (shown.empty()) shown = order_charts(sweep, headlines);
+  if (shown.empty()) shown = drop_doubles(sweep);
   const std::vector<std::string> axes = list_axes(sweep);
   std::vector<std::string> names;
   for (const std::string& axis : axes) names.push_back(name_axis(axis));

@@ -14,25 +14,12 @@
 
 #include "include/rollrig/error.h"
 #include "report/blocks.h"
+#include "sim/core/embed.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
 #include "sim/core/visible.h"
 
-// The style sheet stands in a file of its own: the assembler takes it in, as page.cpp has it.
-asm(R"(
-  .pushsection .rodata
-  .globl rollrig_report_style_begin, rollrig_report_style_end
-  .hidden rollrig_report_style_begin, rollrig_report_style_end
-rollrig_report_style_begin:
-  .incbin "report/test_report.css"
-rollrig_report_style_end:
-  .popsection
-)");
-
-extern "C" {
-extern const char rollrig_report_style_begin[];  // NOLINT: a name of the assembler's
-extern const char rollrig_report_style_end[];    // NOLINT
-}
+ROLLRIG_EMBED(rollrig_report_style, "report/test_report.css")
 
 namespace rollrig::report {
 namespace {

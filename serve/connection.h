@@ -8,7 +8,8 @@
 
 namespace rollrig::serve {
 
-/// A client that is slower or longer than this is let go. Assumed: all of it; the client is on this computer.
+/// The connection of a client that is slower or sends more than this is closed. Assumed: all of it; the client is on
+/// this computer.
 struct ConnectionLimits {
   std::chrono::milliseconds head{5000};      // from the connection to the end of the head of the request
   std::chrono::milliseconds request{30000};  // likewise to the end of its content

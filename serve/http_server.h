@@ -40,8 +40,8 @@ class HttpServer : public httplib::Server {
  public:
   explicit HttpServer(const ConnectionLimits& limits);
 
-  /// To be called once it is bound: cpp-httplib lets five connections wait for the operating system, and a browser or
-  /// a hundred clients then meet a closed door.
+  /// To be called once it is bound: cpp-httplib lets five connections wait for the operating system, and and further
+  /// clients, even those of one browser, would be refused.
   void lengthen_queue();
 
  private:

@@ -21,7 +21,7 @@ const std::vector<std::string>& taken_endings();
 /// Checked  tests/serve/set_folder_test.cpp
 void require_file_name(const std::string& name);
 
-/// A folder that only this user may read, which goes with the object.
+/// A folder that only this user may read. It is deleted with the object.
 class PrivateFolder {
  public:
   /// In the folder of temporary files. Throws InputError.
@@ -36,7 +36,7 @@ class PrivateFolder {
   std::string path_;
 };
 
-/// A file that comes in, part by part. Without finish() it goes again.
+/// A file that comes in, part by part. Without finish() it is deleted with the object.
 class IncomingFile {
  public:
   /// Throws Refusal where there is such a file already.

@@ -36,8 +36,8 @@ int serve_until_interrupt(const ServeOptions& options) {
   {
     const serve::Server server(asked);
     std::cout << fmt::format(
-                     "rollrig serves this page on this computer alone. Open it in a browser:\n\n  {}\n\n"
-                     "The address holds a secret: who has it can use the page. Kept pages go to {}/.\n"
+                     "rollrig serves this page on this computer only. Open it in a browser:\n\n  {}\n\n"
+                     "The address holds a secret: anyone who has it can use the page. Kept pages go to {}/.\n"
                      "Ctrl-C ends it.\n",
                      server.url(), options.keep_folder)
               << std::flush;

@@ -43,6 +43,9 @@ struct MethodBudget {
   double (*calc_force_N)(const ReadingOfMethod& reading);  // at the surface
   std::optional<OwnInput> own;
   std::vector<const char*> left_out;
+
+  /// Whether the readings are slopes of the speed over time.
+  bool is_slope() const { return zero_name == nullptr; }
 };
 
 /// Of a method of list_iso_methods().

@@ -122,8 +122,8 @@ double calc_force_per_reading(const RunSpec& spec, const MethodBudget& budget, c
 UncertainInput make_reading_input(const RunSpec& spec, const std::vector<Cycle>& cycles,
                                   const MethodReadings& readings) {
   const Cycle& cycle = cycles.back();
-  if (readings.method == kDecelerationMethod) return make_deceleration_input(spec, cycle, readings);
   const MethodBudget& budget = find_method_budget(readings.method);
+  if (budget.is_slope()) return make_deceleration_input(spec, cycle, readings);
   UncertainInput input{"noise and drift, load minus skim", find_reading_key(spec, budget),
                        readings.loaded - readings.skim};
   if (!has_scatter(spec, budget, cycles)) {
@@ -173,7 +173,7 @@ UncertainInput make_diameter_input(const RunSpec& spec, const IsoAccuracies& acc
 /// The common offset of both readings.
 UncertainInput make_offset_input(const RunSpec& spec, const MethodBudget& budget, double speed_m_s) {
   const std::string key = find_reading_key(spec, budget);
-  if (budget.zero_name == nullptr) {
+  if (budget.is_slope()) {
     UncertainInput none{"zero of the speed", key};
     none.source = "none: a slope over time has no zero";
     return none;
@@ -239,7 +239,7 @@ MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& c
         "repeatability from cycle to cycle: it takes measurement_cycles = {} or more, with a sensor of the {}",
         kFewestCycles, readings.method));
   }
-  if (readings.method == kDecelerationMethod && !has_sensor(spec, budget)) {
+  if (budget.is_slope() && !has_sensor(spec, budget)) {
     model.left_out.push_back("noise of the speed: the run has no sensor of the speed");
   }
   model.left_out.insert(model.left_out.end(), budget.left_out.begin(), budget.left_out.end());
