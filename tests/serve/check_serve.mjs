@@ -3,6 +3,7 @@
 // node check_serve.mjs <rollrig> <folder for files> <folder to drop> [--screenshots DIR]
 import { mkdirSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
+import { kFindProblems } from '../report/find_problems.mjs';
 import { quantile, ServePage, startServer, wait } from './serve_page.mjs';
 
 const [program, folder, dropped] = process.argv.slice(2);
@@ -24,6 +25,24 @@ const page = new ServePage();
 const kRrc = `Number([...document.querySelectorAll('.lines tr')].find((row) => row.firstChild.textContent === 'RRc').lastChild.textContent.split(' ')[0])`;
 const kCurves = `[...document.querySelectorAll('.times svg path')].map((path) => path.getAttribute('d')).join()`;
 const settled = () => page.until("!document.querySelector('.status').classList.contains('busy')");
+
+/// Texts, legends and plots stay apart in every width, light and dark.
+async function checkBoxes(what) {
+  const found = new Set();
+  for (const theme of ['light', 'dark']) {
+    await page.chromium.send('Emulation.setEmulatedMedia', { features: [{ name: 'prefers-color-scheme', value: theme }] });
+    for (const width of [1400, 768, 420]) {
+      await page.setSize(width, 900);
+      await page.until(`innerWidth === ${width}`);
+      await wait(200);
+      await page.evaluate('(rollrig.drawAll(), 0)');
+      for (const problem of await page.evaluate(kFindProblems)) found.add(`${theme}, ${width} px: ${problem}`);
+      await page.screenshot(shots, `${what.replaceAll(' ', '_')}_${theme}_${width}`, true);
+    }
+  }
+  await page.setSize(1400, 900);
+  check(found.size === 0, `${what}: boxes stay apart ${[...found].join('; ')}`);
+}
 
 async function checkSliders() {
   const before = { rrc: await page.evaluate(kRrc), curves: await page.evaluate(kCurves), now: await page.evaluate("document.querySelector('.readings').textContent") };
@@ -73,7 +92,7 @@ async function checkDrop() {
   await page.until("document.querySelector('#confirm:enabled')");
   const shown = await page.evaluate("document.querySelector('.columnstable').textContent");
   check(/Geschwindigkeit/.test(shown), 'the columns of the logs are guessed and shown');
-  await page.screenshot(shots, 'columns', true);
+  await checkBoxes('columns of a dropped folder');
   await page.click('#confirm');
   await page.until("document.querySelector('#diagnose')");
   check(/Validated/.test(await page.evaluate("document.querySelector('.step:last-child').textContent")), 'the set is validated');
@@ -86,14 +105,14 @@ async function checkDrop() {
   const { href } = await page.evaluate("({ href: document.querySelector('.setbench .kept a').href })");
   check(readdirSync(join(folder, 'kept')).length === 1, 'the page is kept');
   check((await page.evaluate("document.querySelectorAll('.setbench main section').length")) > 3, 'the diagnosis is shown');
-  await page.screenshot(shots, 'diagnosis');
+  await checkBoxes('diagnosis of a dropped folder');
   await page.evaluate(`window.scrollTo(0, 0)`);
   return href;
 }
 
 try {
   await page.open(server.address);
-  await page.screenshot(shots, 'start');
+  await checkBoxes('controls and results');
   await checkSliders();
   await checkWrongNumber();
   await checkEffectsAndTests();

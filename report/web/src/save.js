@@ -35,12 +35,16 @@ function makeCsv(columns) {
   return [names.map(showCell).join(','), ...rows, ''].join('\n');
 }
 
+/// Control characters that XML cannot hold; names of folders may.
+const kNotInXml = /[\u0000-\u0008\u000b\u000c\u000e-\u001f]/g;
+
 /// The chart as it is drawn now, on the color of the page.
 function makeSvg(chart) {
   const root = chart.element.querySelector('svg').cloneNode(true);
   root.removeAttribute('style');
   root.prepend(svg('title', null, chart.title), svg('rect', { width: '100%', height: '100%', fill: color('paper') }));
-  return { text: new XMLSerializer().serializeToString(root), width: chart.instance.getWidth(), height: chart.instance.getHeight() };
+  const text = new XMLSerializer().serializeToString(root).replace(kNotInXml, '');
+  return { text, width: chart.instance.getWidth(), height: chart.instance.getHeight() };
 }
 
 async function makePng({ text, width, height }) {

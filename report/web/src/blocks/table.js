@@ -27,10 +27,12 @@ export function makeTable({ caption, columns, rows }) {
 
 export const tableBlock = (block) => makeTable(block);
 
+const kLong = 48; // characters of a value that is a sentence, and breaks
+
 /// Label and value: {caption, lines: [{label, value}]}. A label that begins with two blanks is part of the line above.
 export function linesBlock({ caption, lines }) {
   return h('table', { class: 'lines' }, caption && h('caption', null, caption),
     h('tbody', null, lines.map(({ label, value }) =>
       h('tr', null, h('th', { scope: 'row', class: label.startsWith('  ') ? 'sub' : '' }, label.trim()),
-        h('td', null, typeset(value))))));
+        h('td', { class: value.length > kLong ? 'long' : '' }, typeset(value))))));
 }

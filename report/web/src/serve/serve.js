@@ -1,6 +1,6 @@
 // The page of `rollrig serve`: controls whose runs are simulated as they move, and folders that are diagnosed. Physics
 // is in the program alone: this page asks it and draws.
-import { chartCount, drawAll } from '../chart.js';
+import { chartAt, chartCount, drawAll, legendsAndPlots } from '../chart.js';
 import { h } from '../dom.js';
 import { makeThemeButton, startTheme } from '../theme.js';
 import { get } from './api.js';
@@ -40,7 +40,7 @@ async function start() {
   } catch (error) {
     page.replaceChildren(makeProblem(error.problem || { what: error.message }));
   }
-  window.rollrig = { chartCount, drawAll, latencies };
+  window.rollrig = { chartAt, chartCount, drawAll, latencies, legendsAndPlots };
   document.documentElement.dataset.ready = 'yes';
 }
 
