@@ -82,27 +82,6 @@ Json describe_set(const std::vector<MeasurementSet>& sets, std::size_t i, const 
   return json;
 }
 
-/// What the intervals do not hold: the zeros of the sensors, which are the same over a whole session.
-void describe_offsets(const std::vector<MeasurementSet>& sets, Comparison& comparison) {
-  std::string text;
-  for (const Quantity& channel : measurements::measured_channels(*sets.front().kind)) {
-    const bool is_used = std::any_of(comparison.values.begin(), comparison.values.end(),
-                                     [&](const ComparedValue& value) { return value.name == channel.header(); });
-    const auto a = sets.front().sensors.find(channel);
-    const auto b = sets[1].sensors.find(channel);
-    if (!is_used || a == sets.front().sensors.end() || b == sets[1].sensors.end()) continue;
-    const double sd = std::hypot(a->second.offset_sd, b->second.offset_sd) / channel.file_unit().factor;
-    const std::string symbol = channel.file_unit().symbol == "degC" ? "K" : channel.file_unit().symbol;
-    text += fmt::format("{}{} {:.2g} {}", text.empty() ? "" : ", ", plain_name(channel.header()), sd, symbol);
-  }
-  if (text.empty()) return;
-  comparison.method.push_back(
-      "not included: the zeros of the sensors, which are one for a session and cancel in what is less skim. Those of "
-      "two "
-      "sessions differ with a standard deviation, by the sets' files, of " +
-      text);
-}
-
 /// Rows of the phase of a place.
 std::size_t count_rows(const std::string& place, const std::vector<GroupComparison>& groups) {
   for (const GroupComparison& group : groups) {
@@ -165,8 +144,9 @@ Compared compare_sets(const std::vector<MeasurementSet>& sets, const std::vector
   comparison.method.push_back(
       "means over the times of a phase that both runs have, from its beginning; the difference sample by sample. Its "
       "interval of 95 % is from the means of eight blocks about a straight line, and not narrower than noise and drift "
-      "by the sets' sensors make it. Runs are taken to be independent of each other");
-  describe_offsets(sets, comparison);
+      "by the sets' sensors make it. It contains the zeros of the sensors (offset_sd), which differ from session to "
+      "session; "
+      "in what is less skim they cancel. Runs are taken to be independent of each other");
   const std::optional<std::size_t> main = find_main_mean(comparison.values, sets.front().kind->traits.force, of_groups);
   if (main.has_value()) {
     choose_main(*main, compared);

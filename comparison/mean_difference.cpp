@@ -52,6 +52,15 @@ double calc_sensor_mean_sd(const models::SensorParameters& sensor, std::size_t c
   return std::sqrt(0.5 * models::calc_difference_variance(sensor, static_cast<int>(count), interval_s, kFar_s));
 }
 
+UncertainMean add_zeros(const UncertainMean& mean, double zeros_sd) {
+  if (!mean.sd.has_value() || zeros_sd <= 0.0) return mean;
+  const double of_zeros = zeros_sd * estimation::calc_coverage_factor(std::numeric_limits<double>::infinity());
+  UncertainMean both = mean;
+  both.sd = std::hypot(*mean.sd, zeros_sd);
+  both.coverage_factor = std::hypot(*mean.sd * mean.coverage_factor, of_zeros) / *both.sd;
+  return both;
+}
+
 UncertainMean calc_mean(const std::vector<double>& samples, double sensors_sd) {
   UncertainMean found = calc_block_mean(samples);
   const double of_sensors = sensors_sd * estimation::calc_coverage_factor(std::numeric_limits<double>::infinity());

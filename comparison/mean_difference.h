@@ -38,4 +38,8 @@ double calc_sensor_mean_sd(const models::SensorParameters& sensor, std::size_t c
 /// not show all of it.
 UncertainMean calc_mean(const std::vector<double>& samples, double sensors_sd);
 
+/// The same with the zeros of the sensors, which no scatter shows: an independent, normal error of the mean.
+/// Equation  u^2 = u_mean^2 + u_zeros^2;  half the interval = sqrt((k u_mean)^2 + (1.96 u_zeros)^2)
+UncertainMean add_zeros(const UncertainMean& mean, double zeros_sd);
+
 }  // namespace rollrig::comparison

@@ -75,6 +75,12 @@ double calc_channel_sd(const MeasurementSet& set, const Quantity& channel, std::
   return calc_sensor_mean_sd(sensor->second, count, interval_s) / channel.file_unit().factor;
 }
 
+/// Standard uncertainty of the zero of a channel's sensor, likewise.
+double find_zero_sd(const MeasurementSet& set, const Quantity& channel) {
+  const auto sensor = set.sensors.find(channel);
+  return sensor == set.sensors.end() ? 0.0 : sensor->second.offset_sd / channel.file_unit().factor;
+}
+
 const RunPhase* find_phase(const std::vector<RunPhase>& phases, const std::string& name) {
   const auto found =
       std::find_if(phases.begin(), phases.end(), [&name](const RunPhase& phase) { return phase.name == name; });
@@ -117,7 +123,7 @@ void GroupComparison::add_values(Comparison& comparison) const {
   for (const RunPhase& phase : phases_.front()) {
     for (const Quantity& channel : measurements::measured_channels(*sets_.front().kind)) {
       const std::optional<ComparedValue> value =
-          make_value(phase, channel, [&](std::size_t i) { return find_means(i, phase, channel); });
+          make_value(phase, channel, [&](std::size_t i) { return find_means_with_zeros(i, phase, channel); });
       if (value.has_value()) comparison.values.push_back(*value);
     }
     const std::optional<ComparedValue> less_skim = make_less_skim(phase);
@@ -153,6 +159,16 @@ std::optional<PairedMeans> GroupComparison::find_means(std::size_t other, const 
                       calc_channel_sd(sets_[other], channel, count, interval_s));
   };
   return calc_paired_means(find_samples(run(0), phase, channel), find_samples(run(other), *beside, channel), calc_sd);
+}
+
+std::optional<PairedMeans> GroupComparison::find_means_with_zeros(std::size_t other, const RunPhase& phase,
+                                                                  const Quantity& channel) const {
+  std::optional<PairedMeans> means = find_means(other, phase, channel);
+  const bool is_one = means.has_value() && means->difference.sd == 0.0;  // the same data: no zeros between them
+  if (!means.has_value() || is_one) return means;
+  const double zeros_sd = std::hypot(find_zero_sd(sets_.front(), channel), find_zero_sd(sets_[other], channel));
+  means->difference = add_zeros(means->difference, zeros_sd);
+  return means;
 }
 
 std::optional<ComparedValue> GroupComparison::make_value(const RunPhase& phase, const Quantity& channel,

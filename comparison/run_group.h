@@ -54,6 +54,9 @@ class GroupComparison {
   /// Means of a channel in a phase of the reference and of another set.
   std::optional<PairedMeans> find_means(std::size_t other, const diagnosis::RunPhase& phase,
                                         const Quantity& channel) const;
+  /// The same, whose uncertainty contains the zeros of the sensors in two sessions.
+  std::optional<PairedMeans> find_means_with_zeros(std::size_t other, const diagnosis::RunPhase& phase,
+                                                   const Quantity& channel) const;
   /// A value of all sets, by the means of each.
   std::optional<ComparedValue> make_value(const diagnosis::RunPhase& phase, const Quantity& channel,
                                           const FindMeans& find) const;

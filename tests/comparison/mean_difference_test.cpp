@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+using rollrig::comparison::add_zeros;
 using rollrig::comparison::calc_block_mean;
 using rollrig::comparison::calc_mean;
 using rollrig::comparison::calc_sensor_mean_sd;
@@ -63,6 +64,19 @@ TEST_CASE("a straight trend is no scatter", "[fast]") {
   const UncertainMean rising = calc_block_mean(samples);
   CHECK(*rising.sd == Approx(*still.sd).epsilon(1e-9));                     // rounding
   CHECK(rising.mean == Approx(still.mean + 0.01 * 799 / 2).epsilon(1e-9));  // the mean of the line
+}
+
+TEST_CASE("zeros of sensors widen an interval, and count alone where nothing scatters", "[fast]") {
+  const UncertainMean mean{5.0, 0.3, 2.4};
+  const UncertainMean both = add_zeros(mean, 0.4);
+  CHECK(both.mean == 5.0);
+  CHECK(*both.sd == Approx(0.5));
+  const double half = both.coverage_factor * *both.sd;
+  CHECK(half > 2.4 * 0.3);
+  CHECK(half < 2.4 * 0.3 + 1.96 * 0.4);
+  const UncertainMean alone = add_zeros({5.0, 1e-9, 2.4}, 0.4);
+  CHECK(alone.coverage_factor * *alone.sd == Approx(1.96 * 0.4).epsilon(1e-3));
+  CHECK(*add_zeros(mean, 0.0).sd == 0.3);
 }
 
 TEST_CASE("a few samples have a mean and no interval", "[fast]") {
