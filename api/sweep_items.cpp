@@ -1,5 +1,7 @@
 #include "api/sweep_items.h"
 
+#include <filesystem>
+
 #include "api/data.h"
 #include "api/run_items.h"
 #include "rollrig/version.h"
@@ -29,13 +31,22 @@ scenarios::RunSpec SweepItems::read(std::size_t item) const {
   return read_run(run);
 }
 
+void SweepItems::require_one_spelling(const std::string& path, const std::string& given) {
+  const auto [known, is_new] = tire_files_.emplace(std::filesystem::weakly_canonical(path), given);
+  if (is_new || known->second == given) return;
+  throw InputError({"a tire is varied twice", "command line", 0, "--vary", fmt::format("{}, {}", known->second, given),
+                    "each tire file once", ""});
+}
+
 void SweepItems::check() {
   const ReadRecorder recorder;
   for (std::size_t item = 0; item < count(); ++item) {
     const scenarios::RunSpec spec = read(item);
     scenarios::prepare_run(spec);
     for (std::size_t a = 0; a < input_.axes.size(); ++a) {
-      if (input_.axes[a].key == kTireFactor) tire_names_[points_[item][a]] = spec.tire.name;
+      if (input_.axes[a].key != kTireFactor) continue;
+      tire_names_[points_[item][a]] = spec.tire.name;
+      require_one_spelling(spec.tire.path, points_[item][a]);
     }
   }
   if (!input_.unfinished_folder.empty()) carry_out_quickly(read(0));

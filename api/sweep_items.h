@@ -36,10 +36,14 @@ class SweepItems : public WatchedItems {
   std::string define(std::uint64_t seed) const;
 
  private:
+  /// Throws InputError where a tire file was varied under another spelling before.
+  void require_one_spelling(const std::string& path, const std::string& given);
+
   SweepInput input_;
   std::vector<SweepPoint> points_;
   std::vector<CampaignFile> files_;
   std::map<std::string, std::string> tire_names_;  // by what an axis of tires says
+  std::map<std::string, std::string> tire_files_;  // what an axis of tires says by the path of the file
 };
 
 }  // namespace rollrig

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "comparison/budget_difference.h"
@@ -27,6 +28,29 @@ void require_one_scenario(const std::vector<ResultFolder>& folders) {
     if (name_scenario(folder) == first) continue;
     throw InputError({"results of different scenarios have nothing to compare", folder.file_of("result.json"), 0,
                       "scenario", name_scenario(folder), fmt::format("{}, as the first of the results", first), ""});
+  }
+}
+
+/// Reads what a comparison needs of a result, each in its type.
+/// Errors  InputError: what is missing or of another type, with the file of this result
+void require_whole(const ResultFolder& folder) {
+  try {
+    const Json& result = folder.result;
+    result.at("scenario").get<std::string>();
+    result.at("energy").value("terms_J", Json::object()).get<std::map<std::string, double>>();
+    for (const Json& phase : result.value("phases", Json::array())) {
+      phase.at("name").get<std::string>();
+      phase.at("start_s").get<double>();
+      phase.at("end_s").get<double>();
+    }
+    for (const Json& budget : result.value("uncertainty", Json::object()).value("budgets", Json::array())) {
+      budget.at("key").get<std::string>();
+      budget.at("value").get<double>();
+      budget.at("contributions").get<Json::array_t>();
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError({fmt::format("a result was changed or is damaged: {}", error.what()),
+                      folder.file_of("result.json"), 0, "", "", "files as rollrig run --out writes them", ""});
   }
 }
 
@@ -222,13 +246,17 @@ Compared compare_folders(const std::vector<ResultFolder>& folders, const std::ve
 
 Compared compare_results(const std::vector<std::string>& paths, const std::vector<std::string>& names) {
   std::vector<ResultFolder> folders;
-  for (const std::string& path : paths) folders.push_back(read_result_folder(path));
+  for (const std::string& path : paths) {
+    folders.push_back(read_result_folder(path));
+    require_whole(folders.back());
+  }
   try {
     require_one_scenario(folders);
     return compare_folders(folders, names);
   } catch (const nlohmann::json::exception& error) {
     throw InputError({fmt::format("a result was changed or is damaged: {}", error.what()),
-                      folders.front().file_of("result.json"), 0, "", "", "files as rollrig run --out writes them", ""});
+                      fmt::format("{}", fmt::join(paths, ", ")), 0, "", "", "files as rollrig run --out writes them",
+                      ""});
   }
 }
 

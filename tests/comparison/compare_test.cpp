@@ -121,6 +121,21 @@ TEST_CASE("a set whose torque has a gain shows it less skim, where the zeros of 
   CHECK(comparison["message"].get<std::string>().find("drum torque less skim") != std::string::npos);
 }
 
+TEST_CASE("a damaged result is named, whichever it is", "[fast]") {
+  const TemporaryFolder folder;
+  run_well(folder, kQuick + "--tire a50 --out good");
+  for (const char* member : {"terms_J", "phases"}) {
+    const std::string bad = std::string("bad_") + member;
+    fs::copy(folder.file("good"), folder.file(bad));
+    json result = json::parse(read_file(folder.file(bad + "/result.json")));
+    (std::string(member) == "phases" ? result : result["energy"])[member] = {{"a", "a text"}};
+    write_file(folder.file(bad + "/result.json"), result.dump());
+    const ProgramResult refused = run_program("compare good " + bad, folder.path());
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.err, Contains("damaged") && Contains(bad + "/result.json"));
+  }
+}
+
 TEST_CASE("runs without a counterpart are listed", "[fast]") {
   const TemporaryFolder folder;
   const std::string made =

@@ -53,6 +53,15 @@ TEST_CASE("a tire that is a file goes by its name, two of one name by their file
   CHECK_THAT(read_file(folder.file("t/sweep.csv")), Contains("\nfirst.toml,") && Contains("\nsecond.toml,"));
 }
 
+TEST_CASE("a tire that is given in two spellings is refused", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string file = std::string(ROLLRIG_SOURCE_DIR) + "/assets/tires/a50.toml";
+  const ProgramResult refused =
+      run_program("sweep skim --fidelity quasi_static --vary tire=a50," + file, folder.path());
+  CHECK(refused.status == 2);
+  CHECK_THAT(flatten(refused.err), Catch::Contains("a tire is varied twice") && Catch::Contains("a50.toml"));
+}
+
 TEST_CASE("a campaign over tires refuses to go on with a tire that has changed", "[fast]") {
   const TemporaryFolder folder;
   write_file(folder.file("own.toml"), read_asset("a40"));
