@@ -110,8 +110,10 @@ Alignment align(const AlignmentInput& input, const UncertaintyOptions& uncertain
   alignment.text = fmt::format("align   {}   classes {}\n", file->path, file->rules.classes) +
                    format_tables(report::make_alignment_tables(*file, *result));
   Json json = estimation::make_alignment_json(*file, *result);
+  std::vector<Table> budgets;
   if (wants_uncertainty(uncertainty)) {
-    alignment.text += add_uncertainty(estimation::make_alignment_model(*result), uncertainty, progress, json);
+    budgets = add_uncertainty(estimation::make_alignment_model(*result), uncertainty, progress, json);
+    alignment.text += format_tables(budgets);
   }
   alignment.text += format_warnings(result->warnings);
   alignment.json = to_text(json);
@@ -123,7 +125,9 @@ Alignment align(const AlignmentInput& input, const UncertaintyOptions& uncertain
     return report::make_report_html(report::make_alignment_report(*file, *result, json, files),
                                     report::find_report_date());
   };
-  alignment.make_page = [file, result] { return report::make_html(report::make_alignment_page(*file, *result)); };
+  alignment.make_page = [file, result, budgets] {
+    return make_page_with_uncertainty(report::make_alignment_page(*file, *result), budgets);
+  };
   return alignment;
 }
 
@@ -143,7 +147,7 @@ AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOp
   if (wants_uncertainty(uncertainty)) {
     const estimation::MeasurementModel model =
         estimation::make_aligned_value_model(stored.line, input.rrc_N_per_kN, input.measurements);
-    value.text += add_uncertainty(model, uncertainty, progress, json);
+    value.text += format_tables(add_uncertainty(model, uncertainty, progress, json));
   }
   value.text += format_warnings(value.warnings);
   value.json = to_text(json);

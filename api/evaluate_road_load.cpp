@@ -122,14 +122,18 @@ RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOpti
   result.text = wrap(fmt::format("fit road-load   {}   {}", source, report::title_of(procedure->kind)), 0) +
                 format_tables(report::make_procedure_tables(*procedure)) + format_warnings(procedure->warnings);
   Json json = report::make_procedure_json(*procedure);
+  std::vector<Table> budgets;
   if (wants_uncertainty(uncertainty)) {
-    result.text += add_uncertainty(estimation::make_procedure_model(*procedure), uncertainty, progress, json);
+    budgets = add_uncertainty(estimation::make_procedure_model(*procedure), uncertainty, progress, json);
+    result.text += format_tables(budgets);
   }
   result.json = to_text(json);
   result.make_files = [procedure, json = result.json] {
     return FolderFiles{{"road_load.json", json}, {"points.csv", report::write_procedure_points(*procedure)}};
   };
-  result.make_page = [procedure, source] { return report::make_html(report::make_procedure_page(*procedure, source)); };
+  result.make_page = [procedure, source, budgets] {
+    return make_page_with_uncertainty(report::make_procedure_page(*procedure, source), budgets);
+  };
   result.make_test_report = [procedure, file, json = std::move(json),
                              files = list_report_files(recorder, &find_recording_role)] {
     return report::make_report_html(report::make_procedure_report(*procedure, file, json, files),

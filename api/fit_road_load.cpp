@@ -122,16 +122,17 @@ RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
   result.warnings = fit->warnings;
   result.text = format_road_load(path, *file, options, *fit, checks);
   Json json = estimation::make_road_load_json(*file, options, *fit, checks);
+  std::vector<Table> budgets;
   if (wants_uncertainty(uncertainty)) {
-    result.text +=
-        add_uncertainty(estimation::make_road_load_model(file->data, options, *fit), uncertainty, progress, json);
+    budgets = add_uncertainty(estimation::make_road_load_model(file->data, options, *fit), uncertainty, progress, json);
+    result.text += format_tables(budgets);
   }
   result.json = to_text(json);
   result.make_files = [file, fit, json = result.json] {
     return FolderFiles{{"road_load.json", json}, {"residuals.csv", estimation::write_road_load_residuals(*file, *fit)}};
   };
-  result.make_page = [file, options, fit, checks] {
-    return report::make_html(report::make_road_load_page(*file, options, *fit, checks));
+  result.make_page = [file, options, fit, checks, budgets] {
+    return make_page_with_uncertainty(report::make_road_load_page(*file, options, *fit, checks), budgets);
   };
   result.make_test_report = [file, json = std::move(json), files = list_report_files(recorder, &find_coastdown_role)] {
     return report::make_report_html(report::make_road_load_report(*file, json, files), report::find_report_date());

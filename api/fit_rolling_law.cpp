@@ -131,11 +131,15 @@ RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options, 
   }
   Json json = estimation::make_j2452_json(test, fit, reference);
   std::string tables = format_tables(report::make_j2452_tables(fit, reference));
+  std::vector<Table> budgets;
   if (wants_uncertainty(uncertainty, fit.statistics.freedom > 0)) {
-    tables += add_uncertainty(estimation::make_j2452_model(test, fit, reference), uncertainty, progress, json);
+    budgets = add_uncertainty(estimation::make_j2452_model(test, fit, reference), uncertainty, progress, json);
+    tables += format_tables(budgets);
   }
   RollingLaw law = make_law("fit j2452", test, fit, tables, json, recorder);
-  law.make_page = [test, fit, reference] { return report::make_html(report::make_j2452_page(test, fit, reference)); };
+  law.make_page = [test, fit, reference, budgets] {
+    return make_page_with_uncertainty(report::make_j2452_page(test, fit, reference), budgets);
+  };
   return law;
 }
 
@@ -154,12 +158,14 @@ RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options, 
   }
   Json json = estimation::make_multipoint_json(test, fit, reference);
   std::string tables = format_tables(report::make_multipoint_tables(fit, reference));
+  std::vector<Table> budgets;
   if (wants_uncertainty(uncertainty, fit.statistics.freedom > 0)) {
-    tables += add_uncertainty(estimation::make_multipoint_model(test, fit, reference), uncertainty, progress, json);
+    budgets = add_uncertainty(estimation::make_multipoint_model(test, fit, reference), uncertainty, progress, json);
+    tables += format_tables(budgets);
   }
   RollingLaw law = make_law("fit j1269", test, fit, tables, json, recorder);
-  law.make_page = [test, fit, reference] {
-    return report::make_html(report::make_multipoint_page(test, fit, reference));
+  law.make_page = [test, fit, reference, budgets] {
+    return make_page_with_uncertainty(report::make_multipoint_page(test, fit, reference), budgets);
   };
   return law;
 }

@@ -80,15 +80,18 @@ std::string find_role(const scenarios::RunSpec& spec, const RunInput& input, con
   return fs::path(path).extension() == ".toml" ? "other file" : "data";
 }
 
-/// Adds the uncertainty to the result that is there.
-void add_run_uncertainty(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome,
-                         const UncertaintyOptions& options, const Progress& progress, Json& json, RunResult& result) {
+/// Adds the uncertainty to the result that is there. Returns its tables, none where it was not asked for.
+std::vector<Table> add_run_uncertainty(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome,
+                                       const UncertaintyOptions& options, const Progress& progress, Json& json,
+                                       RunResult& result) {
   const bool is_possible = !outcome.why_no_uncertainty.has_value();
-  if (!wants_uncertainty(options, is_possible)) return;
+  if (!wants_uncertainty(options, is_possible)) return {};
   if (!is_possible) throw InputError(*outcome.why_no_uncertainty);
   UncertaintyOptions how = options;
   how.seed = spec.seed;
-  result.text += add_uncertainty(outcome.make_measurement_model(), how, progress, json);
+  std::vector<Table> tables = add_uncertainty(outcome.make_measurement_model(), how, progress, json);
+  result.text += format_tables(tables);
+  return tables;
 }
 
 }  // namespace
@@ -144,14 +147,16 @@ RunResult Run::carry_out(const Progress& progress, const UncertaintyOptions& unc
   result.thermal_closure = outcome->recording.audit.calc_closure(Ledger::kThermal);
   result.text = report::format_outcome(spec, *outcome);
   Json json = scenarios::make_result_json(spec, *outcome);
-  add_run_uncertainty(spec, *outcome, uncertainty, progress, json, result);
+  const std::vector<Table> budgets = add_run_uncertainty(spec, *outcome, uncertainty, progress, json, result);
   result.json = to_text(json);
   result.make_files = [data = data_, outcome, json = result.json] {
     return FolderFiles{{"result.json", json},
                        {"recording.csv", scenarios::make_recording_csv(outcome->recording)},
                        {"manifest.json", to_text(scenarios::make_manifest(data->spec, *outcome))}};
   };
-  result.make_page = [data = data_, outcome] { return report::make_html(report::make_run_page(data->spec, *outcome)); };
+  result.make_page = [data = data_, outcome, budgets] {
+    return make_page_with_uncertainty(report::make_run_page(data->spec, *outcome), budgets);
+  };
   if (has_test_report()) {
     result.make_test_report = [data = data_, outcome, json = std::move(json)] {
       return report::make_report_html(report::make_run_report(data->spec, *outcome, json, data->files),

@@ -31,6 +31,11 @@ void Page::add(Section section) {
   if (!section.blocks.empty()) sections.push_back(std::move(section));
 }
 
+void Page::add_behind_first(Section section) {
+  if (section.blocks.empty()) return;
+  sections.insert(sections.empty() ? sections.end() : sections.begin() + 1, std::move(section));
+}
+
 Json make_payload(const Page& page) {
   Json json = {{"format", "rollrig-page/1"},
                {"command", page.command},

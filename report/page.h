@@ -35,6 +35,8 @@ struct Page {
 
   /// Adds a section, unless it would be empty.
   void add(Section section);
+  /// The same behind the first section: the result, as a rule.
+  void add_behind_first(Section section);
 };
 
 /// What the script of a page draws: format, command, title, subtitle, about, clock, sections.
