@@ -263,6 +263,8 @@ void require_valid_options(const DiagnosisOptions& options) {
 Diagnosis diagnose(const measurements::MeasurementSet& set, const DiagnosisOptions& options) {
   require_valid_options(options);
   Diagnosis diagnosis = diagnose_all_runs(set, options);
+  diagnosis.only = options.only;
+  diagnosis.without = options.without;
   diagnosis.without_run = diagnose_without_runs(set, diagnosis, options);
   return diagnosis;
 }

@@ -219,6 +219,8 @@ Json make_diagnosis_json(const Findings& findings) {
   };
   return {{"format", "rollrig-diagnosis/1"},
           {"set", findings.set},
+          {"only", findings.only},
+          {"without", findings.without},
           {"verdict", name_of(findings.verdict)},
           {"probability", probability},
           {"nothing_detectable", finite(findings.nothing_detectable)},
@@ -239,6 +241,8 @@ Json make_diagnosis_json(const Findings& findings) {
 Findings read_diagnosis_json(const Json& json) {
   Findings read;
   read.set = json.at("set").get<std::string>();
+  read.only = json.value("only", std::vector<std::string>());
+  read.without = json.value("without", std::vector<std::string>());
   read.verdict = read_verdict(json.at("verdict").get<std::string>());
   for (const auto& [name, value] : json.at("probability").items()) read.probability[name] = read_number(value);
   for (const Json& cause : json.at("causes")) read.causes.push_back(read_cause(cause));

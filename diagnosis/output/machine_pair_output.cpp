@@ -63,7 +63,8 @@ std::string describe_place(const Location& at) {
 
 Json make_rrc_json(const RrcEstimate& estimate) {
   return {{"value_N_per_kN", json_number(estimate.value_N_per_kN)},
-          {"ci95_N_per_kN", {json_number(estimate.low_95_N_per_kN), json_number(estimate.high_95_N_per_kN)}}};
+          {"ci95_N_per_kN", {json_number(estimate.low_95_N_per_kN), json_number(estimate.high_95_N_per_kN)}},
+          {"half_width_95_N_per_kN", json_number(0.5 * (estimate.high_95_N_per_kN - estimate.low_95_N_per_kN))}};
 }
 
 Json make_difference_json(const MachineDifference& cause) {

@@ -340,6 +340,12 @@ std::string assumed_line(const Findings& findings) {
   return line("Assumed", why + join_to_fit(assumed, ", ", text_width() - why.size()));
 }
 
+/// What the command left out of the comparison; empty where nothing was.
+std::string restriction_line(const Findings& findings) {
+  const std::string text = describe_restriction(findings, [](const std::string& id) { return id; });
+  return text.empty() ? text : line("Compared", text);
+}
+
 std::string next_line(const Findings& findings) {
   if (findings.next_tests.empty()) return line("Next test", "none would tell more");
   const NextTest& next = findings.next_tests.front();
@@ -363,6 +369,18 @@ std::string show_probability(double probability) {
   return fmt::format("{:.0f} %", 100.0 * probability);
 }
 
+std::string describe_restriction(const Findings& findings, const std::function<std::string(const std::string&)>& name) {
+  const auto join = [&name](const std::vector<std::string>& ids) {
+    std::vector<std::string> names;
+    for (const std::string& id : ids) names.push_back(name(id));
+    return fmt::format("{}", fmt::join(names, ", "));
+  };
+  std::string text;
+  if (!findings.only.empty()) text = "only " + join(findings.only);
+  if (!findings.without.empty()) text += (text.empty() ? "all but " : ", without ") + join(findings.without);
+  return text;
+}
+
 std::string show_factor(double nats) {
   const double factor = std::exp(std::min(nats, 100.0));
   if (factor > 1e6) return "over a million times";
@@ -376,7 +394,8 @@ std::string format_summary(const Findings& findings) {
       verdict_line(findings) +
       (in_doubt ? doubt_lines(findings)
                 : cause_line(findings) + second_line(findings) + alone_line(findings) + likeness_line(findings)) +
-      where_line(findings) + equation_line(findings) + gap_lines(findings) + shrinkage_line(findings);
+      restriction_line(findings) + where_line(findings) + equation_line(findings) + gap_lines(findings) +
+      shrinkage_line(findings);
   text += line("Not excluded", findings.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
                                                              : join_to_fit(findings.not_excluded, ", ", text_width()));
   text += next_line(findings);

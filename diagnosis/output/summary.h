@@ -1,6 +1,7 @@
 #pragma once
 /// A diagnosis as a test engineer reads it in the terminal.
 
+#include <functional>
 #include <string>
 
 #include "diagnosis/diagnosis.h"
@@ -14,6 +15,9 @@ namespace rollrig::diagnosis {
 /// Checked tests/diagnosis/summary_test.cpp
 std::string format_summary(const Findings& findings);
 
+/// Which effects were compared: "only A, B", "all but C"; empty where it was the whole catalog. `name` gives the name of
+/// an effect as it is shown.
+std::string describe_restriction(const Findings& findings, const std::function<std::string(const std::string&)>& name);
 /// "94 %"; neither 0 nor 100 while some doubt is left.
 std::string show_probability(double probability);
 

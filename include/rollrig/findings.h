@@ -194,7 +194,9 @@ struct Likeness {
 
 /// What a diagnosis finds, as its JSON has it.
 struct Findings {
-  std::string set;  // its name
+  std::string set;                   // its name
+  std::vector<std::string> only;     // as DiagnosisOptions has them
+  std::vector<std::string> without;  // likewise
   Verdict verdict = Verdict::kNoGap;
   std::map<std::string, double> probability;  // of "none", "unknown" and every effect in the comparison
   std::optional<double> nothing_detectable;   // without a gap: that no effect acts which the set would show
