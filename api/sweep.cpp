@@ -15,6 +15,7 @@
 #include "campaigns/items.h"
 #include "campaigns/store.h"
 #include "report/list_pages.h"
+#include "report/sweep_values.h"
 #include "scenarios/run/flat_results.h"
 #include "sim/core/columns.h"
 #include "sim/core/csv.h"
@@ -260,9 +261,12 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
     throw RunFailure(
         fmt::format("no point of the sweep could be simulated. {}: {}", name_point(sweep, 0), sweep.failures.front()));
   }
-  const Json json = make_json(first.scenario->text.name, sweep, results);
+  Json json = make_json(first.scenario->text.name, sweep, results);
   const std::vector<Json> numbers = scenarios::flatten_results(results);
-  const Json flat = make_json(first.scenario->text.name, sweep, numbers);
+  Json flat = make_json(first.scenario->text.name, sweep, numbers);
+  const std::vector<std::string> drawn =
+      items.input().shown.empty() ? report::choose_drawn_results(flat) : items.input().shown;
+  json["sensitivities"] = flat["sensitivities"] = report::list_sensitivities(flat, drawn);
   sweep.results = report::list_numbers(flat);
   for (const Json& result : numbers) {
     sweep.values.emplace_back();

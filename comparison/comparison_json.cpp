@@ -14,7 +14,10 @@ Json make_difference_json(const Difference& difference) {
                {"percent", to_json(difference.percent)},
                {"sd", to_json(difference.sd)},
                {"ci95", nullptr}};
-  if (difference.low_95.has_value()) json["ci95"] = {*difference.low_95, *difference.high_95};
+  if (difference.low_95.has_value()) {
+    json["ci95"] = {*difference.low_95, *difference.high_95};
+    json["half_width_95"] = *difference.high_95 - *difference.value;
+  }
   if (!difference.why_no_interval.empty()) json["why_no_interval"] = difference.why_no_interval;
   return json;
 }

@@ -23,10 +23,6 @@ std::string show_with_interval(double value, double sd, double k) {
   return fmt::format("{:.4f} ({:.4f} to {:.4f})", value, value - k * sd, value + k * sd);
 }
 
-std::string show_expanded(const UncertainValue& aligned) {
-  return fmt::format("{:.3f}", aligned.coverage_factor * aligned.sd);
-}
-
 std::string name_or(const std::string& name, const char* none) { return name.empty() ? none : name; }
 
 std::string show_sigma(const estimation::ScatterEstimate& sigma) {
@@ -51,8 +47,8 @@ Table make_alignment_overview(const AlignmentFile& file, const AlignmentResult& 
   if (!file.is_assigned && result.is_of_network) {
     add("A1, B1 of the reference", fmt::format("{:.4f}, {:.4f} N/kN", line.A1, line.B1));
   }
-  add("RRC aligned", fmt::format("{:.4f} x RRC measured {} {:.4f} N/kN", line.A1 * line.A2,
-                                 line.A1 * line.B2 + line.B1 < 0.0 ? '-' : '+', std::abs(line.A1 * line.B2 + line.B1)));
+  add("RRC aligned", fmt::format("{:.4f} x RRC measured {} {:.4f} N/kN", line.calc_factor(),
+                                 line.calc_offset() < 0.0 ? '-' : '+', std::abs(line.calc_offset())));
   add("sigma_m of the machine", show_sigma(result.sigma_m));
   if (result.sigma_l.has_value()) add("sigma_m of the reference machine", show_sigma(*result.sigma_l));
   add("valid until",
@@ -80,12 +76,10 @@ Table make_aligned_range_table(const AlignmentResult& result) {
   Table table{"Aligned values: N/kN, with U of 95 % of one measurement and of the mean of three",
               {"measured", "aligned", "U, one", "U, three"},
               {}};
-  const double low = result.fit.points.front().x, high = result.fit.points.back().x;
-  for (const double share : {0.0, 0.5, 1.0}) {
-    const double x = low + share * (high - low);
-    const UncertainValue one = estimation::align_value(result.line, x, 1);
-    table.rows.push_back({fmt::format("{:.2f}", x), fmt::format("{:.2f}", one.value), show_expanded(one),
-                          show_expanded(estimation::align_value(result.line, x, 3))});
+  const auto show = [](double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); };
+  for (const estimation::AlignedExample& at : estimation::list_aligned_examples(result)) {
+    table.rows.push_back({show(at.measured_N_per_kN, 2), show(at.aligned_N_per_kN, 2),
+                          show(at.expanded_of_one_N_per_kN, 3), show(at.expanded_of_three_N_per_kN, 3)});
   }
   return table;
 }
@@ -156,8 +150,9 @@ Block make_control_chart(const ControlChart& chart) {
 }
 
 Block make_alignment_tiles(const AlignmentResult& result) {
-  const double middle = 0.5 * (result.fit.points.front().x + result.fit.points.back().x);
-  const UncertainValue aligned = estimation::align_value(result.line, middle, 1);
+  constexpr std::size_t kMiddle = 1;
+  const estimation::AlignedExample middle = estimation::list_aligned_examples(result)[kMiddle];
+  const std::string place = fmt::format("/aligned_examples/{}/", kMiddle);
   const auto broken = std::count_if(result.checks.begin(), result.checks.end(),
                                     [](const AlignmentCheck& check) { return check.is_rule && !check.is_met; });
   return make_tiles(
@@ -167,12 +162,12 @@ Block make_alignment_tiles(const AlignmentResult& result) {
         broken > 0 ? format_count(static_cast<std::size_t>(broken), "rule") + " broken" : "all rules are met",
         result.is_valid ? "good" : "bad",
         {}},
-       {fmt::format("{:.2f} N/kN measured is", middle),
-        fmt::format("{:.2f} +- {:.2f}", aligned.value, aligned.coverage_factor * aligned.sd),
+       {fmt::format("{:.2f} N/kN measured is", middle.measured_N_per_kN),
+        fmt::format("{:.2f} +- {:.2f}", middle.aligned_N_per_kN, middle.expanded_of_one_N_per_kN),
         "N/kN",
         "aligned; +- is the interval of 95 % of one measurement",
         "",
-        {}},
+        {place + "aligned_N_per_kN", place + "expanded_of_one_N_per_kN"}},
        {"Repeatability sigma_m",
         fmt::format("{:.3f}", result.sigma_m.sd),
         "N/kN",

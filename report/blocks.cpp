@@ -6,7 +6,9 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
+#include "sim/core/text.h"
 #include "sim/core/units.h"
 
 namespace rollrig::report {
@@ -110,6 +112,19 @@ Section make_section(const std::string& title, const std::vector<Table>& tables,
     if (!table.rows.empty()) section.blocks.push_back(make_table(table));
   }
   return section;
+}
+
+std::vector<std::string> name_numbers(const std::vector<std::string>& keys) {
+  std::map<std::string, int> uses;
+  for (const std::string& key : keys) ++uses[plain_name(last_part(key))];
+  std::vector<std::string> names;
+  for (const std::string& key : keys) {
+    const std::string name = plain_name(last_part(key));
+    const std::size_t dot = key.rfind('.');
+    const bool needs_table = uses[name] > 1 && dot != std::string::npos;
+    names.push_back(needs_table ? plain_name(last_part(key.substr(0, dot))) + ": " + name : name);
+  }
+  return names;
 }
 
 Table make_estimate_table(const std::string& title, const std::vector<ParameterEstimate>& estimates) {

@@ -85,6 +85,9 @@ Section make_document(const Json& document, const std::string& folded);
 /// Warnings, where there are some, and tables.
 Section make_section(const std::string& title, const std::vector<Table>& tables,
                      const std::vector<std::string>& warnings);
+/// Names of numbers of files as a person reads them: "heat capacity" of "thermal.heat_capacity_J_per_K"; with the name
+/// of the table before it where two would be the same.
+std::vector<std::string> name_numbers(const std::vector<std::string>& keys);
 /// Fitted numbers with their intervals; one without a standard deviation is on its bound.
 Table make_estimate_table(const std::string& title, const std::vector<ParameterEstimate>& estimates);
 /// Typeset equations of a procedure, by their name in report/web/equations.json; nothing where it has none.

@@ -49,15 +49,20 @@ Page make_campaign_page(const PlannedCampaign& campaign) {
             fmt::format("{:.1f} of {:g} h", campaign.hours, campaign.most_hours)};
   Section what{"What it would show"};
   const std::size_t visible = diagnosis::count_visible(campaign);
-  what.blocks.push_back(make_tiles(
-      {{"Visible effects",
-        fmt::format("{} of {}", visible, campaign.effects.size()),
-        "",
-        "at their usual size",
-        visible > 0 ? "good" : "doubt",
-        {}},
-       {"Time", fmt::format("{:.1f}", campaign.hours), "h", fmt::format("of {:g} h", campaign.most_hours), "", {}},
-       {"Tests", fmt::format("{}", campaign.ledger.size()), "", "in their order below", "", {}}}));
+  what.blocks.push_back(
+      make_tiles({{"Visible effects",
+                   fmt::format("{} of {}", visible, campaign.effects.size()),
+                   "",
+                   "at their usual size",
+                   visible > 0 ? "good" : "doubt",
+                   {"/visible"}},
+                  {"Time",
+                   fmt::format("{:.1f}", campaign.hours),
+                   "h",
+                   fmt::format("of {:g} h", campaign.most_hours),
+                   "",
+                   {"/hours"}},
+                  {"Tests", fmt::format("{}", campaign.ledger.size()), "", "in their order below", "", {}}}));
   what.blocks.push_back(make_lead(
       visible > 0 ? "good" : "doubt",
       fmt::format("{} of {} effects would be visible at their usual size.", visible, campaign.effects.size()),

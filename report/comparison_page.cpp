@@ -49,11 +49,16 @@ Block make_waterfall_block(const Comparison& comparison, const EnergyWaterfall& 
 }
 
 /// The main value of each, with its difference from that of the reference.
-Block make_main_tiles(const Comparison& comparison, const ComparedValue& value) {
+Block make_main_tiles(const Comparison& comparison, std::size_t main) {
+  const ComparedValue& value = comparison.values.at(main);
   std::vector<Tile> tiles;
   for (std::size_t i = 0; i < comparison.names.size(); ++i) {
-    Tile tile{comparison.names[i], show_value(value.values[i]), value.unit,
-              capitalized(value.label) + (i == 0 ? ", the reference" : "")};
+    Tile tile{comparison.names[i],
+              show_value(value.values[i]),
+              value.unit,
+              capitalized(value.label) + (i == 0 ? ", the reference" : ""),
+              "",
+              {fmt::format("/values/{}/values/{}", main, i)}};
     if (i > 0) {
       const Difference& difference = value.differences[i - 1];
       tile.note =
@@ -174,7 +179,7 @@ Page make_comparison_page(const comparison::Compared& compared) {
   Section top{"Main difference"};
   if (!comparison.message.empty()) top.blocks.push_back(make_lead("", comparison.message + "."));
   if (compared.main.has_value()) {
-    top.blocks.push_back(make_main_tiles(comparison, comparison.values.at(*compared.main)));
+    top.blocks.push_back(make_main_tiles(comparison, *compared.main));
   }
   if (!comparison.warnings.empty()) top.blocks.push_back(make_warnings(comparison.warnings));
   const std::vector<const ComparedValue*> bars = choose_bars(comparison);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "diagnosis/output/diagnosis_json.h"
+#include "diagnosis/output/summary.h"
 #include "diagnosis/terms/term.h"
 #include "report/blocks.h"
 #include "report/set_comparison.h"
@@ -41,7 +42,8 @@ std::vector<SimulatedSet> simulate_before_and_after(const diagnosis::PreparedSet
   if (!fitted.recalibrated.empty()) simulated.push_back({"recalibrated", fitted.recalibrated});
   if (diagnosis.verdict == Verdict::kNoGap || diagnosis.causes.empty()) return simulated;
   const Cause& cause = diagnosis.causes.front();
-  const std::string names = fmt::format("{}", fmt::join(cause.effects, " and "));
+  std::string names;
+  for (const std::string& id : cause.effects) names += (names.empty() ? "" : " and ") + name_effect(id);
   if (!fitted.with_cause.empty()) {
     simulated.push_back({"recalibrated, with " + names, fitted.with_cause});
   } else {
@@ -77,7 +79,9 @@ std::string describe_set(const measurements::MeasurementSet& set) {
 Page make_diagnosis_page(const measurements::MeasurementSet& set, const Diagnosis& diagnosis) {
   const diagnosis::PreparedSet prepared(set);
   const std::vector<SimulatedSet> simulated = simulate_before_and_after(prepared, diagnosis);
+  const std::string restriction = diagnosis::describe_restriction(diagnosis, &name_effect);
   Page page{"diagnose", fmt::format("Diagnosis of {}", diagnosis.set), describe_set(set)};
+  if (!restriction.empty()) page.subtitle += "; compared: " + restriction;
   page.add(make_verdict(diagnosis));
   page.add(make_causes(diagnosis));
   page.add(make_gap(diagnosis));

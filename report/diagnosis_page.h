@@ -12,7 +12,9 @@ namespace rollrig::report {
 /// be told apart and the test that would, equation and source of what is named, measurement and simulation by run.
 Page make_diagnosis_page(const measurements::MeasurementSet& set, const diagnosis::Diagnosis& diagnosis);
 
-/// The verdict in one sentence: "Gap explained by bearing_warmup (probability 94 %), ...".
+/// Name of an effect, of "none" or of "unknown", as pages show it: "bearing warmup".
+std::string name_effect(const std::string& id);
+/// The verdict in one sentence: "Explained: the gap is bearing warmup (probability 94 %)."
 std::string describe_verdict(const Findings& findings);
 Section make_verdict(const Findings& findings);
 Section make_causes(const Findings& findings);

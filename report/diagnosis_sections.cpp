@@ -26,6 +26,13 @@ std::string summary_of(const std::string& id) {
 
 std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
+/// Names of effects as the page shows them, with `between` between them.
+std::string join_effects(const std::vector<std::string>& ids, const char* between = ", ") {
+  std::vector<std::string> names;
+  for (const std::string& id : ids) names.push_back(name_effect(id));
+  return fmt::format("{}", fmt::join(names, between));
+}
+
 std::string show_estimate(const ParameterEstimate& at) {
   const std::string unit = at.unit.empty() ? "" : " " + pretty_unit(at.unit);
   return fmt::format("{:.3g}{} (95 %: {:.3g} to {:.3g}){}", at.value, unit, at.low_95, at.high_95,
@@ -42,7 +49,7 @@ std::string describe_shrinkage(const Gap& gap) {
 
 /// A cause that is too small to matter: size, what it changes, probability.
 std::string describe_trace(const Cause& trace) {
-  std::string text = fmt::format("There is a trace of {}, too small to matter", fmt::join(trace.effects, " with "));
+  std::string text = fmt::format("There is a trace of {}, too small to matter", join_effects(trace.effects, " with "));
   if (!trace.parameters.empty()) {
     text += fmt::format(": {} {}", plain_name(last_part(trace.parameters.front().name)),
                         show_estimate(trace.parameters.front()));
@@ -74,9 +81,12 @@ Block make_shrinkages(const Gap& gap) {
   Table table{"What the cause takes from the gap, by what it is judged on",
               {"on", "before, floors", "after", "shrinks by (95 %)", "energy of a run off by", "with the cause"},
               {}};
-  table.rows.push_back(make_shrinkage_row("the fitted data", gap.fitted));
-  table.rows.push_back(make_shrinkage_row("stretches left out of the fit", gap.stretches));
-  table.rows.push_back(make_shrinkage_row("runs left out of the fit", gap.runs));
+  table.rows.push_back({"the numbers of the files, nothing fitted but the cause",
+                        fmt::format("{:.2f}", gap.as_calibrated.before), fmt::format("{:.2f}", gap.as_calibrated.after),
+                        "-", "-", "-"});
+  table.rows.push_back(make_shrinkage_row("the fitted data, recalibrated", gap.fitted));
+  table.rows.push_back(make_shrinkage_row("stretches left out of the fit, likewise", gap.stretches));
+  table.rows.push_back(make_shrinkage_row("runs left out of the fit, likewise", gap.runs));
   return make_table(table);
 }
 
@@ -88,7 +98,7 @@ Block make_probabilities(const Findings& findings) {
   std::sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   Json rows = Json::array();
   for (const auto& [probability, name] : ranked) {
-    rows.push_back({{"label", name},
+    rows.push_back({{"label", name_effect(name)},
                     {"note", summary_of(name)},
                     {"share", rounded(probability)},
                     {"text", show_probability(probability)}});
@@ -107,15 +117,40 @@ Block make_ranking(const Findings& findings) {
   Table table{"Causes, the likeliest first", {"cause", "probability", "cannot be told from", "size", "adequate"}, {}};
   for (const Cause& cause : findings.causes) {
     const bool sized = !cause.parameters.empty();
-    table.rows.push_back({fmt::format("{}", fmt::join(cause.effects, " + ")), show_probability(cause.probability),
-                          cause.indistinguishable_from.empty() ? "-" : join(cause.indistinguishable_from),
+    table.rows.push_back({join_effects(cause.effects, " + "), show_probability(cause.probability),
+                          cause.indistinguishable_from.empty() ? "-" : join_effects(cause.indistinguishable_from),
                           sized ? show_estimate(cause.parameters.front()) : "-", cause.adequate ? "yes" : "no"});
   }
   return make_table(table);
 }
 
+/// On what gap.recalibrated is.
+const char* name_judge(const Findings& findings) {
+  const Gap& gap = findings.gap;
+  const bool has_cause = findings.verdict != Verdict::kNoGap && !findings.causes.empty();
+  if (gap.judged_by == JudgedBy::kStretches) return "stretches left out of the fit";
+  if (gap.judged_by == JudgedBy::kRuns || (!has_cause && !gap.held_out.empty())) return "runs left out of the fit";
+  return "fitted data";
+}
+
+/// The same in a sentence.
+std::string describe_judge(const Findings& findings) {
+  const Gap& gap = findings.gap;
+  if (gap.judged_by == JudgedBy::kStretches) return "Judged on stretches, each left out of the fit in turn.";
+  if (gap.held_out.empty()) return "There is one run, so nothing can be left out: judged on the fitted data.";
+  const bool has_cause = findings.verdict != Verdict::kNoGap && !findings.causes.empty();
+  if (has_cause && gap.judged_by == JudgedBy::kNothing) {
+    return "Nothing that is left out is predicted well enough to judge the cause: shown on the fitted data.";
+  }
+  const std::vector<std::string>& runs = gap.judged_by == JudgedBy::kRuns ? gap.judged_on : gap.held_out;
+  return fmt::format("Judged on {}, each left out of the fit in turn: {}.", format_count(runs.size(), "run"),
+                     join(runs));
+}
+
 Block make_channel_gaps(const Findings& findings) {
-  Table table{"Gap of each channel, without noise, on what was held out", {"channel", "before", "after", "unit"}, {}};
+  Table table{fmt::format("Gap of each channel, without noise, on {}", name_judge(findings)),
+              {"channel", "before", "after", "unit"},
+              {}};
   for (const ChannelGap& at : findings.gap.channels) {
     table.rows.push_back(
         {plain_name(at.channel), fmt::format("{:.3f}", at.before), fmt::format("{:.3f}", at.after), at.unit});
@@ -133,17 +168,24 @@ Block make_explanation(const models::EffectInfo& info) {
     parameters.push_back(fmt::format("{}: {}", each.key, diagnosis::describe_parameter(each)));
   }
   std::vector<std::string> confusions;
-  for (const std::string& id : info.confused_with) confusions.push_back(id + ": " + summary_of(id));
+  for (const std::string& id : info.confused_with) confusions.push_back(name_effect(id) + ": " + summary_of(id));
   add("What it is", {info.summary});
+  add("On the command line", {info.id}, true);
   add("Equation", {info.equation}, true);
   add("Source", {info.source});
   add("Own parameters", parameters);
   add("Confused with", confusions);
   add("Separated by", info.splitting_tests);
-  return {{"type", "definitions"}, {"title", info.id}, {"items", items}};
+  return {{"type", "definitions"}, {"title", capitalized(name_effect(info.id))}, {"items", items}};
 }
 
 }  // namespace
+
+std::string name_effect(const std::string& id) {
+  if (id == "none") return "no effect";
+  if (id == "unknown") return "something else";
+  return plain_name(id);
+}
 
 std::string describe_verdict(const Findings& findings) {
   const bool has_cause = !findings.causes.empty();
@@ -160,14 +202,14 @@ std::string describe_verdict(const Findings& findings) {
   if (!findings.doubt.empty()) return "Unexplained: the files are in doubt, before any physics.";
   if (findings.verdict == Verdict::kUnexplained || !has_cause) {
     const std::string like = has_cause ? fmt::format("; it looks most like {}, but that does not explain it",
-                                                     fmt::join(findings.causes.front().effects, " with "))
+                                                     join_effects(findings.causes.front().effects, " with "))
                                        : "";
     return fmt::format("Unexplained: there is a gap that no effect of the catalog follows (probability {}){}.",
                        show_probability(diagnosis::probability_of(findings, "unknown")), like);
   }
   const Cause& cause = findings.causes.front();
-  std::string text = fmt::format("Explained: the gap is {}", fmt::join(cause.effects, " with "));
-  const std::string alternatives = join(cause.indistinguishable_from);
+  std::string text = fmt::format("Explained: the gap is {}", join_effects(cause.effects, " with "));
+  const std::string alternatives = join_effects(cause.indistinguishable_from);
   if (!alternatives.empty() && cause.effects.size() == 1) text += " or, as well, " + alternatives;
   if (!alternatives.empty() && cause.effects.size() > 1) text += ", or in place of one or more of them " + alternatives;
   return fmt::format("{} (probability {}).", text, show_probability(cause.probability));
@@ -183,7 +225,7 @@ std::string describe_alone(const Cause& cause) {
   std::vector<std::string> partners;
   for (const Partner& partner : cause.partners) {
     if (partners.size() == kMost) break;
-    partners.push_back(fmt::format("{} ({})", partner.effect, show_probability(partner.probability)));
+    partners.push_back(fmt::format("{} ({})", name_effect(partner.effect), show_probability(partner.probability)));
   }
   if (!cause.indistinguishable_from.empty()) {
     return fmt::format(" One of these and nothing else acts with a probability of {}; else most likely with {}.",
@@ -211,7 +253,7 @@ Tile make_cause_tile(const Findings& findings) {
   std::vector<std::string> names;
   std::vector<std::string> clauses;
   for (const std::string& id : cause.effects) {
-    names.push_back(plain_name(id));
+    names.push_back(name_effect(id));
     clauses.push_back(make_clause(summary_of(id)));
   }
   return {"Cause", fmt::format("{}", fmt::join(names, " and ")), "", fmt::format("{}", fmt::join(clauses, "; ")),
@@ -243,7 +285,7 @@ Tile make_certainty_tile(const Findings& findings) {
 /// What the gap was and what the cause leaves of it.
 std::vector<Tile> make_gap_tiles(const Findings& findings) {
   const GapView& judged = findings.gap.recalibrated;
-  const char* where = findings.gap.held_out.empty() ? "fitted data" : "runs left out of the fit";
+  const char* where = name_judge(findings);
   const auto show = [](double floors) { return fmt::format("{:.2f}", floors); };
   if (findings.verdict != Verdict::kExplained || findings.causes.empty()) {
     return {{"Residual",
@@ -267,13 +309,16 @@ std::vector<Tile> make_gap_tiles(const Findings& findings) {
            {"/gap/recalibrated/after"}}};
 }
 
-Block make_gap_bars(const Gap& gap) {
-  return make_bars(
-      {"Residual without noise", "noise floors"},
-      {"as calibrated, numbers of the files", "recalibrated, held-out runs"},
-      {{{"name", "before"}, {"values", {rounded(gap.as_calibrated.before), rounded(gap.recalibrated.before)}}},
-       {{"name", "with the cause"}, {"values", {rounded(gap.as_calibrated.after), rounded(gap.recalibrated.after)}}}},
-      "One noise floor is the standard deviation of a mean over ten seconds.");
+/// The residual before and after: the first chart of the page.
+Block make_gap_bars(const Findings& findings) {
+  const Gap& gap = findings.gap;
+  Json series = Json::array({{{"name", "recalibrated"}, {"values", {rounded(gap.recalibrated.before)}}}});
+  if (findings.verdict != Verdict::kNoGap && !findings.causes.empty()) {
+    series.push_back({{"name", "recalibrated, with the cause"}, {"values", {rounded(gap.recalibrated.after)}}});
+  }
+  return make_bars({"Residual without noise", "noise floors"}, {name_judge(findings)}, series,
+                   "One noise floor is the standard deviation of a mean over ten seconds. Recalibrated: the numbers of "
+                   "the files are moved within their uncertainties.");
 }
 
 }  // namespace
@@ -288,8 +333,7 @@ Section make_verdict(const Findings& findings) {
   if (findings.verdict == Verdict::kNoGap && findings.trace.has_value()) more = describe_trace(*findings.trace);
   if (findings.verdict == Verdict::kUnexplained && findings.doubt.empty() && findings.unknown_like.has_value()) {
     const Likeness& like = *findings.unknown_like;
-    const std::string beside =
-        like.beside.empty() ? "" : ", beside " + fmt::format("{}", fmt::join(like.beside, " and "));
+    const std::string beside = like.beside.empty() ? "" : ", beside " + join_effects(like.beside, " and ");
     more = fmt::format("It is like {}{} (probability {}).", like.text, beside, show_probability(like.probability));
   }
   if (findings.verdict == Verdict::kExplained && !findings.causes.empty()) {
@@ -303,7 +347,7 @@ Section make_verdict(const Findings& findings) {
   }
   section.blocks.push_back(make_lead(tone, describe_verdict(findings), more));
   if (!findings.warnings.empty()) section.blocks.push_back(make_warnings(findings.warnings));
-  section.blocks.push_back(make_gap_bars(findings.gap));
+  section.blocks.push_back(make_gap_bars(findings));
   return section;
 }
 
@@ -314,8 +358,14 @@ Section make_causes(const Findings& findings) {
   section.blocks.push_back(make_ranking(findings));
   if (!findings.causes.front().parameters.empty()) {
     const Cause& cause = findings.causes.front();
-    const std::string title = fmt::format("Fitted size of {}, with 95 % interval", fmt::join(cause.effects, " and "));
-    section.blocks.push_back(make_table(make_estimate_table(title, cause.parameters)));
+    const std::string title =
+        fmt::format("Fitted size of {}, with 95 % interval", join_effects(cause.effects, " and "));
+    std::vector<std::string> keys;
+    for (const ParameterEstimate& at : cause.parameters) keys.push_back(at.name);
+    const std::vector<std::string> names = name_numbers(keys);
+    std::vector<ParameterEstimate> parameters = cause.parameters;
+    for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].name = names[i];
+    section.blocks.push_back(make_table(make_estimate_table(title, parameters)));
   }
   const std::vector<std::string>& objections = findings.causes.front().objections;
   if (!objections.empty()) {
@@ -335,8 +385,12 @@ Section make_base_numbers(const Findings& findings) {
       "", {"number", "unit", "file", "uncertainty", "from", "recalibrated", "moved", "with the cause", "moved"}, {}};
   const auto show = [](double value) { return fmt::format("{:.4g}", value); };
   const auto show_move = [](double by_sd) { return fmt::format("{:+.1f}", by_sd); };
-  for (const BaseNumber& base : findings.base_numbers) {
-    table.rows.push_back({base.name, pretty_unit(base.unit), show(base.value), fmt::format("{:.2g}", base.sd),
+  std::vector<std::string> keys;
+  for (const BaseNumber& base : findings.base_numbers) keys.push_back(base.name);
+  const std::vector<std::string> names = name_numbers(keys);
+  for (std::size_t i = 0; i < findings.base_numbers.size(); ++i) {
+    const BaseNumber& base = findings.base_numbers[i];
+    table.rows.push_back({names[i], pretty_unit(base.unit), show(base.value), fmt::format("{:.2g}", base.sd),
                           sources[static_cast<int>(base.sd_source)], show(base.recalibrated), show_move(base.moved_sd),
                           base.with_cause.has_value() ? show(*base.with_cause) : "-",
                           base.with_cause_moved_sd.has_value() ? show_move(*base.with_cause_moved_sd) : "-"});
@@ -347,12 +401,8 @@ Section make_base_numbers(const Findings& findings) {
 
 Section make_gap(const Findings& findings) {
   const Gap& gap = findings.gap;
-  const bool is_held_out = !gap.held_out.empty();
   const bool has_cause = findings.verdict != Verdict::kNoGap && !findings.causes.empty();
-  Section section{"Before and after", is_held_out
-                                          ? fmt::format("Judged on {}, each left out of the fit in turn: {}.",
-                                                        format_count(gap.held_out.size(), "run"), join(gap.held_out))
-                                          : "There is one run, so nothing can be left out: judged on the fitted data."};
+  Section section{"Before and after", describe_judge(findings)};
   for (Block& block : make_gap_waterfalls(gap)) section.blocks.push_back(std::move(block));
   const auto percent = [](const std::optional<double>& value) {
     return value.has_value() ? fmt::format("{:.0f} %", *value) : std::string("not above the noise");
@@ -402,26 +452,26 @@ Section make_next(const Findings& findings) {
   Section section{"What cannot be told apart, and the test that would"};
   if (!findings.causes.empty() && !findings.causes.front().indistinguishable_from.empty()) {
     const Cause& cause = findings.causes.front();
-    const std::string others = join(cause.indistinguishable_from);
+    const std::string others = join_effects(cause.indistinguishable_from);
     section.blocks.push_back(make_paragraph(
-        cause.effects.size() == 1 ? fmt::format("This set cannot tell {} from {}.", cause.effects.front(), others)
+        cause.effects.size() == 1 ? fmt::format("This set cannot tell {} from {}.", join_effects(cause.effects), others)
                                   : fmt::format("This set cannot tell whether {} act together, or {} in place of one "
                                                 "or more of them.",
-                                                fmt::join(cause.effects, " and "), others)));
+                                                join_effects(cause.effects, " and "), others)));
   }
-  section.blocks.push_back(
-      make_paragraph(findings.not_excluded.empty()
-                         ? std::string("Not excluded: nothing; each effect at its usual size would have shown.")
-                         : "Not excluded, since this set need not show them: " + join(findings.not_excluded) + "."));
+  section.blocks.push_back(make_paragraph(
+      findings.not_excluded.empty()
+          ? std::string("Not excluded: nothing; each effect at its usual size would have shown.")
+          : "Not excluded, since this set need not show them: " + join_effects(findings.not_excluded) + "."));
   Table tests{"Next tests, the most telling first", {"test", "tells apart", "bits an hour", "hours"}, {}};
   for (const NextTest& next : findings.next_tests) {
-    tests.rows.push_back({next.test, next.splits.empty() ? "-" : join(next.splits),
+    tests.rows.push_back({next.test, next.splits.empty() ? "-" : join_effects(next.splits),
                           fmt::format("{:.2f}", next.expected_bits_per_hour), fmt::format("{:.1f}", next.hours)});
   }
   if (!tests.rows.empty()) section.blocks.push_back(make_table(tests));
   Table sensors{"Sensors that the rig has not", {"sensor", "tells apart", "bits", "hours to fit"}, {}};
   for (const NextSensor& next : findings.next_sensors) {
-    sensors.rows.push_back({next.sensor, next.splits.empty() ? "-" : join(next.splits),
+    sensors.rows.push_back({next.sensor, next.splits.empty() ? "-" : join_effects(next.splits),
                             fmt::format("{:.2f}", next.expected_bits), fmt::format("{:.2g}", next.hours)});
   }
   if (!sensors.rows.empty()) section.blocks.push_back(make_table(sensors));

@@ -14,7 +14,7 @@ template <class Size>
 Block make_steps(const Axis& axis, const std::vector<GapStep>& steps, const std::string& caption, const Size& size) {
   std::vector<WaterfallBar> changes;
   for (std::size_t i = 1; i < steps.size(); ++i) {
-    const std::string name = i == 1 ? "recalibration" : steps[i].name;
+    const std::string name = i == 1 ? "recalibration" : name_effect(steps[i].name);
     changes.push_back({name, size(steps[i]) - size(steps[i - 1])});
   }
   return make_waterfall(axis, {"with the files' numbers", size(steps.front())}, changes,

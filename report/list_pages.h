@@ -23,7 +23,8 @@ std::vector<std::string> choose_charts(const Json& sweep);
 Table make_sweep_table(const Json& sweep, const std::string& title, const std::vector<std::string>& keys);
 
 /// Of the sweep's document (rollrig-sweep/1): results over what is varied, and a table of all points. `shown` are the
-/// results that have a chart; where none is named, those of choose_charts.
+/// results that have a chart; where none is named, those of choose_drawn_results(). The document has their
+/// sensitivities (list_sensitivities).
 Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const std::string& subtitle);
 
 /// A row a run of the comparison's document: its status and its worst difference.

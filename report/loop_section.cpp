@@ -29,7 +29,9 @@ std::string describe_loop_test(const LoopLedger& ledger, const LoopAnswer& answe
 
 std::string describe_first_cause(const LoopAnswer& answer) {
   if (answer.effects.empty()) return "-";
-  std::string text = fmt::format("{}{}", answer.is_trace ? "a trace of " : "", fmt::join(answer.effects, " with "));
+  std::vector<std::string> names;
+  for (const std::string& id : answer.effects) names.push_back(name_effect(id));
+  std::string text = fmt::format("{}{}", answer.is_trace ? "a trace of " : "", fmt::join(names, " with "));
   for (const std::string& other : answer.indistinguishable_from) text += " or " + other;
   return text;
 }

@@ -78,10 +78,19 @@ Block make_pair_tiles(const PairFindings& findings) {
   const auto show = [](const RrcEstimate& at) {
     return fmt::format("{:+.3f} +- {:.3f}", at.value_N_per_kN, 0.5 * (at.high_95_N_per_kN - at.low_95_N_per_kN));
   };
-  tiles.push_back({"RRc on A less that on B", show(findings.difference), "N/kN", "+- is the interval of 95 %", "", {}});
+  tiles.push_back({"RRc on A less that on B",
+                   show(findings.difference),
+                   "N/kN",
+                   "+- is the interval of 95 %",
+                   "",
+                   {"/rrc_difference/value_N_per_kN", "/rrc_difference/half_width_95_N_per_kN"}});
   if (findings.remaining.has_value()) {
-    tiles.push_back(
-        {"Of it with the cause", show(*findings.remaining), "N/kN", "what the cause does not take", "", {}});
+    tiles.push_back({"Of it with the cause",
+                     show(*findings.remaining),
+                     "N/kN",
+                     "what the cause does not take",
+                     "",
+                     {"/rrc_remaining/value_N_per_kN", "/rrc_remaining/half_width_95_N_per_kN"}});
   }
   return make_tiles(tiles);
 }

@@ -66,19 +66,14 @@ Table make_forces(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
   Table table{"", {"speed, km/h", "force, " + unit, "sd, " + unit}, {}};
   if (compares) table.columns.insert(table.columns.end(), {"target, N", "over target"});
   table.columns.push_back("");
-  for (const double km_h : {20.0, 50.0, 80.0, 100.0, 130.0}) {
-    const double speed_m_s = km_h / kKmhPerMs;
-    const bool outside = speed_m_s < fit.low_m_s - 0.1 || speed_m_s > fit.high_m_s + 0.1;
-    const double force_N = fit.force_N(speed_m_s);
-    std::vector<std::string> row{fmt::format("{:.0f}", km_h), fmt::format("{:.4g}", force_N),
-                                 fmt::format("{:.2g}", fit.force_sd_N(speed_m_s))};
-    if (compares) {
-      const auto& target = *options.target;
-      const double target_N = target[0] + speed_m_s * (target[1] + speed_m_s * target[2]);
-      row.push_back(fmt::format("{:.4g}", target_N));
-      row.push_back(fmt::format("{:+.1f} %", 100.0 * (force_N / target_N - 1.0)));
+  for (const estimation::ShownForce& at : estimation::list_shown_forces(options, fit)) {
+    std::vector<std::string> row{fmt::format("{:.0f}", kKmhPerMs * at.speed_m_s), fmt::format("{:.4g}", at.force_N),
+                                 fmt::format("{:.2g}", at.sd_N)};
+    if (at.target_N.has_value()) {
+      row.push_back(fmt::format("{:.4g}", *at.target_N));
+      row.push_back(fmt::format("{:+.1f} %", at.calc_over_target_percent()));
     }
-    row.push_back(outside ? "outside the data" : "");
+    row.push_back(at.is_outside ? "outside the data" : "");
     table.rows.push_back(row);
   }
   return table;
@@ -126,7 +121,7 @@ Table make_checks(const estimation::RoadLoadChecks& checks) {
   return table;
 }
 
-Block make_load_tiles(const RoadLoadFit& fit) {
+Block make_load_tiles(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
   constexpr const char* kSymbols[] = {"A", "B", "C"};
   constexpr const char* kNotes[] = {"force at standstill; +- is one standard deviation", "rise with speed",
                                     "rise with the square of speed"};
@@ -143,14 +138,16 @@ Block make_load_tiles(const RoadLoadFit& fit) {
                      {"/" + at.name, "/" + at.name + "_sd"}});
     if (fit.on_bound[i]) tiles.back().from.pop_back();
   }
-  constexpr double kShown_m_s = 80.0 / kKmhPerMs;
-  if (kShown_m_s > fit.low_m_s && kShown_m_s < fit.high_m_s) {
+  constexpr std::size_t kAt80 = 2;  // of shown_speeds_m_s()
+  const estimation::ShownForce at_80 = estimation::list_shown_forces(options, fit)[kAt80];
+  if (!at_80.is_outside) {
+    const std::string place = fmt::format("/forces/{}/force_{}", kAt80, fit.per_mass ? "m_s2" : "N");
     tiles.push_back({"At 80 km/h",
-                     fmt::format("{:.4g} +- {:.2g}", fit.force_N(kShown_m_s), fit.force_sd_N(kShown_m_s)),
+                     fmt::format("{:.4g} +- {:.2g}", at_80.force_N, at_80.sd_N),
                      force_unit(fit),
                      "at reference conditions",
                      "",
-                     {}});
+                     {place, place + "_sd"}});
   }
   return make_tiles(tiles);
 }
@@ -251,7 +248,7 @@ Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFi
                         format_count(fit.points.size(), "speed bin"),
                         file.is_trace ? "from speed traces" : "from times through bins")};
   Section result = make_section("Result", make_road_load_tables(options, fit, checks), fit.warnings);
-  result.blocks.insert(result.blocks.begin(), make_load_tiles(fit));
+  result.blocks.insert(result.blocks.begin(), make_load_tiles(options, fit));
   page.add(std::move(result));
   Section runs{"Runs"};
   if (file.is_trace) runs.blocks.push_back(make_run_chart(file));

@@ -80,12 +80,17 @@ Table make_running_resistance(const RoadLoadProcedure& procedure) {
 
 Table make_forces_of_procedure(const RoadLoadProcedure& procedure) {
   Table table{"", {"speed, km/h", "force, N", "sd, N"}, {}};
-  for (const double km_h : {20.0, 50.0, 80.0, 100.0, 130.0}) {
-    const double speed_m_s = km_h / kKmhPerMs;
-    table.rows.push_back({fmt::format("{:.0f}", km_h), fmt::format("{:.4g}", procedure.force_N(speed_m_s)),
+  for (const double speed_m_s : estimation::shown_speeds_m_s()) {
+    table.rows.push_back({fmt::format("{:.0f}", kKmhPerMs * speed_m_s),
+                          fmt::format("{:.4g}", procedure.force_N(speed_m_s)),
                           fmt::format("{:.2g}", procedure.force_sd_N(speed_m_s))});
   }
   return table;
+}
+
+/// The fit at the conditions of the test, in N or N m.
+double calc_as_tested(const RoadLoadProcedure& procedure, double speed_m_s) {
+  return procedure.as_tested(0) + speed_m_s * (procedure.as_tested(1) + speed_m_s * procedure.as_tested(2));
 }
 
 Table make_reference_table(const RoadLoadProcedure& procedure) {
@@ -96,11 +101,11 @@ Table make_reference_table(const RoadLoadProcedure& procedure) {
       {}};
   for (std::size_t i = 0; i < procedure.reference.speeds.size(); ++i) {
     const estimation::ReferencePrecision& at = procedure.reference.precisions[i];
-    const double v = procedure.reference_speeds_m_s[i];
-    const double fit = procedure.as_tested(0) + v * (procedure.as_tested(1) + v * procedure.as_tested(2));
-    table.rows.push_back({fmt::format("{:.4g}", kKmhPerMs * v), fmt::format("{}", at.pairs),
-                          fmt::format("{:.4g}", at.mean), fmt::format("{:.2f} %", 100.0 * at.precision),
-                          fmt::format("{:.1f}", procedure.reference.resistances[i]), fmt::format("{:.1f}", fit)});
+    table.rows.push_back({fmt::format("{:.4g}", kKmhPerMs * procedure.reference_speeds_m_s[i]),
+                          fmt::format("{}", at.pairs), fmt::format("{:.4g}", at.mean),
+                          fmt::format("{:.2f} %", 100.0 * at.precision),
+                          fmt::format("{:.1f}", procedure.reference.resistances[i]),
+                          fmt::format("{:.1f}", calc_as_tested(procedure, procedure.reference_speeds_m_s[i]))});
   }
   return table;
 }
@@ -284,6 +289,11 @@ Json make_procedure_json(const RoadLoadProcedure& procedure) {
   json["wind_m_s"] = at.wind_m_s;
   json["reference_temperature_degC"] = at.reference_temperature_K - kZeroCelsius_K;
   json["reference_pressure_kPa"] = 1e-3 * at.reference_pressure_Pa;
+  json["forces"] = make_list(estimation::shown_speeds_m_s(), [&procedure](double speed_m_s) -> Json {
+    return {{"speed_km_h", kKmhPerMs * speed_m_s},
+            {"force_N", procedure.force_N(speed_m_s)},
+            {"force_N_sd", procedure.force_sd_N(speed_m_s)}};
+  });
   json["reference_speeds"] = Json::array();
   for (std::size_t i = 0; i < procedure.reference.speeds.size(); ++i) {
     const estimation::ReferencePrecision& precision = procedure.reference.precisions[i];
@@ -292,7 +302,8 @@ Json make_procedure_json(const RoadLoadProcedure& procedure) {
          {"pairs", precision.pairs},
          {is_torque(procedure) ? "torque_Nm" : "time_s", precision.mean},
          {"precision_percent", 100.0 * precision.precision},
-         {is_torque(procedure) ? "mean_Nm" : "force_N", procedure.reference.resistances[i]}});
+         {is_torque(procedure) ? "mean_Nm" : "force_N", procedure.reference.resistances[i]},
+         {is_torque(procedure) ? "fit_Nm" : "fit_N", calc_as_tested(procedure, procedure.reference_speeds_m_s[i])}});
   }
   json["pairs"] = make_list(procedure.reference.pairs, [&procedure](const estimation::ReferencePair& pair) -> Json {
     return {{"plus", procedure.run_names[pair.plus]},

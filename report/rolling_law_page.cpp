@@ -193,7 +193,7 @@ std::vector<Tile> make_reference_tiles(const ForceEstimate& force, const estimat
   if (freedom > 0) {
     loss.value += fmt::format(" +- {:.2f}", estimation::calc_student_reach(freedom) * force.sd_N);
     loss.note = "+- is the interval of 95 %";
-    loss.from.clear();
+    loss.from.push_back("/reference/rolling_resistance/half_width_95_N");
   }
   return {{"RRc at the reference condition",
            fmt::format("{:.3f}", 1e3 * force.value_N / condition.load_N),
@@ -264,8 +264,13 @@ Page make_j2452_page(const estimation::RollingTest& test, const J2452Fit& fit,
                    "",
                    "alpha: rolling resistance goes with pressure to this power",
                    "",
-                   {}});
-  tiles.push_back({"Load exponent", fmt::format("{:.3f}", fit.law.beta), "", "beta: likewise with load", "", {}});
+                   {"/coefficients/alpha/value"}});
+  tiles.push_back({"Load exponent",
+                   fmt::format("{:.3f}", fit.law.beta),
+                   "",
+                   "beta: likewise with load",
+                   "",
+                   {"/coefficients/beta/value"}});
   result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
   page.add(std::move(result));
   page.add({"Points and law", "", {make_equations("sae_j2452"), make_speed_chart(fit)}});

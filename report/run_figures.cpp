@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "models/quantities.h"
 #include "report/blocks.h"
@@ -92,16 +91,6 @@ struct CoastRun {
   std::string name;
   std::vector<double> time_s;
   std::vector<double> speed_km_h;
-
-  /// When it falls through a speed; nothing where it does not.
-  std::optional<double> find_passing_s(double at_km_h) const {
-    for (std::size_t i = 1; i < speed_km_h.size(); ++i) {
-      if (speed_km_h[i - 1] < at_km_h || speed_km_h[i] >= at_km_h) continue;
-      const double share = (speed_km_h[i - 1] - at_km_h) / (speed_km_h[i - 1] - speed_km_h[i]);
-      return time_s[i - 1] + share * (time_s[i] - time_s[i - 1]);
-    }
-    return std::nullopt;
-  }
 };
 
 std::vector<CoastRun> list_coasts(const Json& coastdowns, const sim::Recording<double>& recording) {
@@ -132,35 +121,12 @@ Block make_coast_chart(const std::vector<CoastRun>& runs) {
   return make_curves({"Time since the start of the coastdown", "s"}, {"Speed", "km/h", true}, series);
 }
 
-/// Time through each bin of 10 km/h, a column a run.
-Block make_coast_times(const std::vector<CoastRun>& runs) {
-  constexpr int kBin_km_h = 10;
-  Table table{"Time through each bin of speed, s", {"km/h"}, {}};
-  for (const CoastRun& run : runs) table.columns.push_back(run.name);
-  double most_km_h = 0.0;
-  for (const CoastRun& run : runs) {
-    if (!run.speed_km_h.empty()) most_km_h = std::max(most_km_h, run.speed_km_h.front());
-  }
-  for (int high = static_cast<int>(most_km_h) / kBin_km_h * kBin_km_h; high > kBin_km_h; high -= kBin_km_h) {
-    std::vector<std::string> row{fmt::format("{} to {}", high, high - kBin_km_h)};
-    bool is_passed = false;
-    for (const CoastRun& run : runs) {
-      const std::optional<double> from = run.find_passing_s(high), to = run.find_passing_s(high - kBin_km_h);
-      row.push_back(from && to ? fmt::format("{:.2f}", *to - *from) : "-");
-      is_passed = is_passed || (from && to);
-    }
-    if (is_passed) table.rows.push_back(row);
-  }
-  return make_table(table);
-}
-
 }  // namespace
 
 Section make_coast_figures(const Json& result, const sim::Recording<double>& recording) {
   Section section{"Coastdowns"};
   if (!result.contains("coastdowns") || result["coastdowns"].empty()) return section;
-  const std::vector<CoastRun> runs = list_coasts(result["coastdowns"], recording);
-  section.blocks = {make_coast_chart(runs), make_coast_times(runs)};
+  section.blocks = {make_coast_chart(list_coasts(result["coastdowns"], recording))};
   return section;
 }
 

@@ -4,6 +4,7 @@
 
 #include "report/blocks.h"
 #include "scenarios/run/run_spec.h"
+#include "sim/core/units.h"
 
 namespace rollrig::report {
 namespace {
@@ -35,7 +36,7 @@ Block make_energy(const sim::EnergyAudit& audit) {
 std::string list_effects(const scenarios::RunSpec& spec) {
   std::string names;
   for (const models::ActiveEffect& active : spec.effects) {
-    names += (names.empty() ? ", effects: " : ", ") + active.effect->info.id;
+    names += (names.empty() ? ", effects: " : ", ") + plain_name(active.effect->info.id);
   }
   return names;
 }
@@ -45,7 +46,10 @@ std::string make_subtitle(const scenarios::RunSpec& spec) {
   if (spec.vehicle.has_value()) {
     text += fmt::format(", vehicle {} of {:.0f} kg", spec.vehicle->name, spec.vehicle->body.mass_kg);
   }
-  return text + fmt::format(", {}{}", scenarios::name_of(spec.fidelity), list_effects(spec));
+  return text + fmt::format(", {}{}",
+                            spec.fidelity == scenarios::Fidelity::kQuasiStatic ? "quasi-static"
+                                                                               : scenarios::name_of(spec.fidelity),
+                            list_effects(spec));
 }
 
 Section make_over_time(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {

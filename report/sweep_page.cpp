@@ -4,10 +4,10 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "report/blocks.h"
 #include "report/list_pages.h"
+#include "report/sweep_values.h"
 #include "scenarios/run/scenario.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -19,17 +19,10 @@ constexpr const char* kTireAxis = "tire";  // of tires, by name
 
 using Headlines = std::vector<std::pair<std::string, std::string>>;
 
-/// Settings that are varied, in their order.
-std::vector<std::string> list_axes(const Json& sweep) {
-  std::vector<std::string> axes;
-  for (const auto& [key, value] : sweep["points"].front()["set"].items()) axes.push_back(key);
-  return axes;
-}
-
-bool is_numeric_axis(const Json& sweep, const std::string& axis) {
-  return std::all_of(sweep["points"].begin(), sweep["points"].end(), [&axis](const Json& point) {
-    return parse_number(point["set"][axis].get<std::string>()).has_value();
-  });
+/// "Whole ISO 28580 test. " where the scenario is known.
+std::string name_scenario(const Json& sweep) {
+  const scenarios::Scenario* scenario = scenarios::find_scenario_if_any(sweep["scenario"].get<std::string>());
+  return scenario != nullptr ? scenario->text.summary.substr(0, scenario->text.summary.find(':')) + ". " : "";
 }
 
 Headlines find_headlines(const Json& sweep) {
@@ -47,55 +40,9 @@ std::string name_result(const std::string& key, const Headlines& headlines) {
   return capitalized(boost::algorithm::replace_all_copy(name, "degC", " °C"));
 }
 
-std::string name_axis(const std::string& axis) { return plain_name(last_part(axis)); }
-
 std::string with_unit_of(const std::string& name, const std::string& key) {
   const std::string unit = shown_unit(key);
   return unit.empty() ? name : name + ", " + unit;
-}
-
-std::string axis_text(const Json& point, const std::string& axis) { return point["set"][axis].get<std::string>(); }
-
-double axis_value(const Json& point, const std::string& axis) { return *parse_number(axis_text(point, axis)); }
-
-double result_value(const Json& point, const std::string& key) {
-  const Json value = point["result"].value(key, Json());
-  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-}
-
-std::vector<double> list_results(const Json& sweep, const std::string& key) {
-  std::vector<double> values;
-  for (const Json& point : sweep["points"]) values.push_back(result_value(point, key));
-  return values;
-}
-
-/// Whether two results are the same but for a factor: their charts would be the same, too.
-bool are_proportional(const std::vector<double>& a, const std::vector<double>& b) {
-  constexpr double kSame = 1e-6;  // relative: what six digits show
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (!(std::abs(a[i] * b.front() - b[i] * a.front()) <= kSame * std::abs(a[i] * b.front()))) return false;
-  }
-  return true;
-}
-
-/// What has a chart where none is named: nothing twice, not what is varied itself.
-std::vector<std::string> drop_doubles(const Json& sweep) {
-  std::vector<std::vector<double>> seen;
-  for (const std::string& axis : list_axes(sweep)) {
-    if (!is_numeric_axis(sweep, axis)) continue;
-    seen.emplace_back();
-    for (const Json& point : sweep["points"]) seen.back().push_back(axis_value(point, axis));
-  }
-  std::vector<std::string> chosen;
-  for (const std::string& key : choose_charts(sweep)) {
-    const std::vector<double> values = list_results(sweep, key);
-    const bool is_known =
-        std::any_of(seen.begin(), seen.end(), [&values](const auto& one) { return are_proportional(values, one); });
-    if (is_known) continue;
-    chosen.push_back(key);
-    seen.push_back(values);
-  }
-  return chosen;
 }
 
 /// Values of some axes as one name: a line, or a color of bars.
@@ -199,105 +146,48 @@ Block make_heat_map(const Json& sweep, const std::vector<std::string>& axes, con
                              with_unit_of(name_axis(axes[0]), last_part(axes[0])))}};
 }
 
-/// The step of an axis in which its sensitivity reads well: 10 kPa, 1 K, 10 km/h, 1 kN.
-struct SensitivityStep {
-  double size = 1.0;  // in the axis's unit
-  std::string text;
-};
-
-SensitivityStep find_step(const std::string& axis) {
-  const std::string unit = shown_unit(last_part(axis));
-  if (unit == "kPa") return {10.0, "10 kPa"};
-  if (unit == "°C") return {1.0, "K"};
-  if (unit == "km/h") return {10.0, "10 km/h"};
-  if (unit == "N") return {1000.0, "kN"};
-  return {1.0, unit.empty() ? "unit of " + name_axis(axis) : unit};
-}
-
-/// Slope of a result over an axis in percent of its mean a step, by least squares over all points; the other axes are
-/// run through alike at each of its values, so that they do not matter.
-std::optional<double> calc_sensitivity_percent(const Json& sweep, const std::string& axis, const std::string& key) {
-  double count = 0.0, mean_x = 0.0, mean_y = 0.0;
-  for (const Json& point : sweep["points"]) {
-    const double y = result_value(point, key);
-    if (std::isnan(y)) return std::nullopt;  // the grid has a hole
-    ++count;
-    mean_x += axis_value(point, axis);
-    mean_y += y;
-  }
-  mean_x /= count;
-  mean_y /= count;
-  double xx = 0.0, xy = 0.0;
-  for (const Json& point : sweep["points"]) {
-    const double x = axis_value(point, axis) - mean_x;
-    xx += x * x;
-    xy += x * (result_value(point, key) - mean_y);
-  }
-  if (!(xx > 0.0) || mean_y == 0.0) return std::nullopt;
-  return 100.0 * find_step(axis).size * xy / xx / mean_y;
-}
-
-/// Slopes from each value of an axis to the next, of the means over the other axes, likewise in percent a step; empty
-/// where the axis has two values.
-std::vector<double> list_local_percents(const Json& sweep, const std::string& axis, const std::string& key) {
-  std::map<double, std::pair<double, double>> sums;  // count and sum of the result by the axis's value
-  double mean = 0.0;
-  for (const Json& point : sweep["points"]) {
-    auto& [count, sum] = sums[axis_value(point, axis)];
-    ++count;
-    sum += result_value(point, key);
-    mean += result_value(point, key) / static_cast<double>(sweep["points"].size());
-  }
-  std::vector<double> percents;
-  if (sums.size() < 3) return percents;
-  for (auto at = sums.begin(); std::next(at) != sums.end(); ++at) {
-    const auto& [x, from] = *at;
-    const auto& [next_x, to] = *std::next(at);
-    percents.push_back(100.0 * find_step(axis).size * (to.second / to.first - from.second / from.first) / (next_x - x) /
-                       mean);
-  }
-  return percents;
-}
-
 /// The tile of a sensitivity; where the curve bends, the range of its slopes.
-Tile make_sensitivity_tile(const Json& sweep, const std::string& axis, const std::string& key, double percent) {
-  constexpr double kStraight = 0.5;  // Assumed: of the mean slope, by which a slope may differ from another
-  Tile tile{"Sensitivity to " + name_axis(axis),
-            fmt::format("{:+.2f}", percent),
-            "% per " + find_step(axis).text,
+Tile make_sensitivity_tile(const Json& sensitivity, const std::string& place) {
+  Tile tile{"Sensitivity to " + name_axis(sensitivity["varied"]),
+            fmt::format("{:+.2f}", sensitivity["percent"].get<double>()),
+            fmt::format("% per {}", sensitivity["per"].get<std::string>()),
             "straight line through all runs, of the mean",
             "",
-            {}};
-  const std::vector<double> locals = list_local_percents(sweep, axis, key);
-  if (locals.empty()) return tile;
-  const auto [low, high] = std::minmax_element(locals.begin(), locals.end());
-  if (*high - *low <= kStraight * std::abs(percent)) return tile;
-  tile.value = fmt::format("{:+.2f} to {:+.2f}", *low, *high);
+            {place + "/percent"}};
+  if (sensitivity.value("is_straight", true)) return tile;
+  tile.value = fmt::format("{:+.2f} to {:+.2f}", sensitivity["lowest_percent"].get<double>(),
+                           sensitivity["highest_percent"].get<double>());
   tile.note = "not straight: from one value to the next, of the mean";
+  tile.from = {place + "/lowest_percent", place + "/highest_percent"};
   return tile;
 }
 
 /// The first result's range, and its sensitivity to each axis.
-std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::vector<std::string>& axes, const std::string& key,
-                                   const std::string& name) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const double value : list_results(sweep, key)) {
-    if (std::isnan(value)) continue;
-    low = std::min(low, value);
-    high = std::max(high, value);
+std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::string& key, const std::string& name) {
+  const std::vector<double> values = list_results(sweep, key);
+  std::size_t lowest = values.size(), highest = values.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    if (lowest == values.size() || values[i] < values[lowest]) lowest = i;
+    if (highest == values.size() || values[i] > values[highest]) highest = i;
   }
-  if (!(high >= low)) return {};
+  if (lowest == values.size()) return {};
   std::vector<Tile> tiles{{name,
-                           fmt::format("{:.4g} to {:.4g}", low, high),
+                           fmt::format("{:.4g} to {:.4g}", values[lowest], values[highest]),
                            unit_of_key(key).symbol,
                            "over " + format_count(sweep["points"].size(), "run"),
                            "",
                            {}}};
-  for (const std::string& axis : axes) {
-    if (!is_numeric_axis(sweep, axis)) continue;
-    const std::optional<double> percent = calc_sensitivity_percent(sweep, axis, key);
-    if (!percent.has_value()) continue;
-    tiles.push_back(make_sensitivity_tile(sweep, axis, key, *percent));
+  if (key.find('.') == std::string::npos) {  // a number of a list has another place in the file
+    for (const std::size_t point : {lowest, highest}) {
+      tiles.back().from.push_back(fmt::format("/points/{}/result/{}", point, key));
+    }
+  }
+  for (std::size_t i = 0; i < sweep["sensitivities"].size(); ++i) {
+    const Json& sensitivity = sweep["sensitivities"][i];
+    if (sensitivity["result"] == key) {
+      tiles.push_back(make_sensitivity_tile(sensitivity, fmt::format("/sensitivities/{}", i)));
+    }
   }
   return tiles;
 }
@@ -327,7 +217,7 @@ Section make_runs_of_sweep(const Json& sweep, const std::vector<std::string>& sh
     return std::find(shown.begin(), shown.end(), key) != shown.end();
   });
   Table table = make_sweep_table(sweep, "All " + format_count(sweep["points"].size(), "run"), keys);
-  const std::vector<std::string> axes = list_axes(sweep);
+  const std::vector<std::string> axes = list_sweep_axes(sweep);
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const std::string key = table.columns[i];
     const bool is_axis = i < axes.size();
@@ -346,16 +236,14 @@ Section make_runs_of_sweep(const Json& sweep, const std::vector<std::string>& sh
 
 Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const std::string& subtitle) {
   const Headlines headlines = find_headlines(sweep);
-  if (shown.empty()) shown = drop_doubles(sweep);
-  const std::vector<std::string> axes = list_axes(sweep);
+  if (shown.empty()) shown = choose_drawn_results(sweep);
+  const std::vector<std::string> axes = list_sweep_axes(sweep);
   std::vector<std::string> names;
   for (const std::string& axis : axes) names.push_back(name_axis(axis));
-  Page page{"sweep",
-            fmt::format("Sweep of {} over {}", sweep["scenario"].get<std::string>(), fmt::join(names, " and ")),
-            subtitle};
+  Page page{"sweep", fmt::format("Sweep over {}", fmt::join(names, " and ")), name_scenario(sweep) + subtitle};
   Section charts{"Results"};
   if (!shown.empty()) {
-    const std::vector<Tile> tiles = make_sweep_tiles(sweep, axes, shown.front(), name_result(shown.front(), headlines));
+    const std::vector<Tile> tiles = make_sweep_tiles(sweep, shown.front(), name_result(shown.front(), headlines));
     if (!tiles.empty()) charts.blocks.push_back(make_tiles(tiles));
   }
   const std::vector<std::string> failures = list_point_failures(sweep);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <boost/algorithm/string/erase.hpp>
 #include <cmath>
 
 #include "estimation/parameters.h"
@@ -16,16 +15,18 @@ namespace {
 using estimation::Estimate;
 using estimation::TireFit;
 
-/// The key of a number without its table, where that goes without saying, and without its unit.
-std::string shorten_key(std::string key) {
-  for (const char* table : {"rolling_resistance.", "thermal."}) boost::algorithm::erase_first(key, table);
-  return name_without_unit(key);
+/// Names of the estimates, in their order.
+std::vector<std::string> name_estimates(const TireFit& fit) {
+  std::vector<std::string> keys;
+  for (const Estimate& at : fit.estimates) keys.push_back(estimation::find_file_key(at.key));
+  return name_numbers(keys);
 }
 
 Table make_parameters(const TireFit& fit) {
   std::vector<ParameterEstimate> parameters = estimation::list_parameters(fit);
+  const std::vector<std::string> names = name_estimates(fit);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    parameters[i].name = shorten_key(parameters[i].name) + (fit.estimates[i].nuisance ? " *" : "");
+    parameters[i].name = names[i] + (fit.estimates[i].nuisance ? " *" : "");
   }
   return make_estimate_table("Fitted, with standard uncertainty and 95 % interval (* beside a prior)", parameters);
 }
@@ -34,10 +35,12 @@ Table make_parameters(const TireFit& fit) {
 Table make_priors(const TireFit& fit) {
   Table table{
       "Priors (*) and the part of their uncertainty that is left", {"parameter", "prior", "sd", "from", "left"}, {}};
-  for (const Estimate& at : fit.estimates) {
+  const std::vector<std::string> names = name_estimates(fit);
+  for (std::size_t i = 0; i < fit.estimates.size(); ++i) {
+    const Estimate& at = fit.estimates[i];
     if (!at.prior.has_value()) continue;
-    table.rows.push_back({shorten_key(estimation::find_file_key(at.key)), fmt::format("{:.5g}", at.prior->value),
-                          fmt::format("{:.3g}", at.prior->sd), at.prior->of_class ? "class" : "file",
+    table.rows.push_back({names[i], fmt::format("{:.5g}", at.prior->value), fmt::format("{:.3g}", at.prior->sd),
+                          at.prior->of_class ? "class" : "file",
                           fmt::format("{:.0f} %", 100.0 * at.sd / at.prior->sd)});
   }
   return table;
@@ -86,10 +89,11 @@ Table make_two_step(const TireFit& fit) {
 Block make_forest(const TireFit& fit) {
   constexpr double kWide = 1.959963984540054;  // of a normal interval of 95 %
   Json rows = Json::array();
-  for (const Estimate& at : fit.estimates) {
-    const std::string key = estimation::find_file_key(at.key);
-    Json row = {{"name", shorten_key(key)},
-                {"unit", shown_unit(last_part(key))},
+  const std::vector<std::string> names = name_estimates(fit);
+  for (std::size_t i = 0; i < fit.estimates.size(); ++i) {
+    const Estimate& at = fit.estimates[i];
+    Json row = {{"name", names[i]},
+                {"unit", shown_unit(last_part(estimation::find_file_key(at.key)))},
                 {"value", rounded(at.value)},
                 {"low", rounded(at.lower_95())},
                 {"high", rounded(at.upper_95())}};
@@ -134,7 +138,7 @@ Block make_steady_tiles(const TireFit& fit) {
                       "",
                       "in units of the sensors' noise; 1 where the model lacks nothing",
                       "",
-                      {}}});
+                      {"/rest_in_noise"}}});
 }
 
 Block make_correlations(const TireFit& fit) {
@@ -145,14 +149,14 @@ Block make_correlations(const TireFit& fit) {
                  {"rows", Json::array()},
                  {"legend", "Shade: size of the correlation."}};
   constexpr double kShade = 4.0;  // a correlation of 1 has the deepest shade
+  const std::vector<std::string> names = name_estimates(fit);
   for (std::size_t i = 0; i < fit.estimates.size(); ++i) {
-    const std::string name = name_without_unit(last_part(estimation::find_file_key(fit.estimates[i].key)));
-    block["columns"].push_back(name);
+    block["columns"].push_back(names[i]);
     Json cells = Json::array();
     for (const double r : fit.correlation[i]) {
       cells.push_back({{"text", fmt::format("{:.2f}", r)}, {"shade", static_cast<int>(std::lround(kShade * r))}});
     }
-    block["rows"].push_back({{"group", ""}, {"label", name}, {"cells", cells}});
+    block["rows"].push_back({{"group", ""}, {"label", names[i]}, {"cells", cells}});
   }
   return block;
 }

@@ -38,11 +38,28 @@ struct CoastdownTime {
   }
 };
 
+/// How long the vehicle takes through a range of speeds, in the mean over the coastdowns of a direction.
+struct SpeedBin {
+  double high_m_s = 0.0;
+  double low_m_s = 0.0;
+  double first_s = 0.0;
+  double second_s = 0.0;
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"from_km_h", "from", ".0f", "speed at its start"}, high_m_s);
+    visit(Result{"to_km_h", "to", ".0f", "speed at its end"}, low_m_s);
+    visit(Result{"first_direction_s", "direction +", ".2f", "time in the first direction, mean of its coastdowns"},
+          first_s);
+    visit(Result{"second_direction_s", "direction -", ".2f", "time in the second direction, likewise"}, second_s);
+  }
+};
+
 struct Results {
   models::RoadLoad<double> load;
   std::array<double, 3> sd{};
   std::vector<ForcePoint> forces;
   std::vector<CoastdownTime> coastdowns;
+  std::vector<SpeedBin> bins;
   bool on_road = false;
 
   void visit(ResultSheet& visit) const {
@@ -59,10 +76,11 @@ struct Results {
                      "at speeds of 20 to 130 km/h"},
           forces);
     visit(ResultList{"coastdowns", "Coastdowns", "each coastdown"}, coastdowns);
+    visit(ResultList{"bins", "Time through each bin of speed", "each 10 km/h that all coastdowns fall through"}, bins);
     visit(Headline{"A", "{A_N} +- {A_N_sd}", "force at standstill; +- is one standard deviation"});
     visit(Headline{"B", "{B_N_per_km_h} +- {B_N_per_km_h_sd}", "rise with speed"});
     visit(Headline{"C", "{C_N_per_km_h2} +- {C_N_per_km_h2_sd}", "rise with the square of speed"});
-    visit(Headline{"First coastdown", "{coastdowns.first.duration_s}", "{coastdowns.first.name}"});
+    visit(Headline{"First coastdown lasts", "{coastdowns.first.duration_s}", "from its first to its last speed"});
   }
 };
 
@@ -71,6 +89,45 @@ VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
   settings.coastdowns.check(spec);
   settings.coastdowns.append_to(program);
   return program;
+}
+
+/// When a coastdown falls through a speed, linear between its rows; nothing where it does not.
+std::optional<double> find_passing_s(const estimation::CoastdownRun& run, double at_m_s) {
+  for (std::size_t i = 1; i < run.speed_m_s.size(); ++i) {
+    const double before_m_s = run.speed_m_s[i - 1], after_m_s = run.speed_m_s[i];
+    if (before_m_s < at_m_s || after_m_s >= at_m_s) continue;
+    const double share = (before_m_s - at_m_s) / (before_m_s - after_m_s);
+    return run.time_s[i - 1] + share * (run.time_s[i] - run.time_s[i - 1]);
+  }
+  return std::nullopt;
+}
+
+/// Mean time between two speeds of the coastdowns of a direction; nothing where one of them lacks a speed.
+std::optional<double> calc_mean_time_s(const std::vector<estimation::CoastdownRun>& runs, int heading, double high_m_s,
+                                       double low_m_s) {
+  double sum_s = 0.0;
+  int count = 0;
+  for (const estimation::CoastdownRun& run : runs) {
+    if (run.heading != heading) continue;
+    const std::optional<double> from_s = find_passing_s(run, high_m_s), to_s = find_passing_s(run, low_m_s);
+    if (!from_s.has_value() || !to_s.has_value()) return std::nullopt;
+    sum_s += *to_s - *from_s;
+    ++count;
+  }
+  return sum_s / count;
+}
+
+std::vector<SpeedBin> make_bins(const std::vector<estimation::CoastdownRun>& runs, double from_m_s) {
+  constexpr double kBin_m_s = 10.0 / 3.6;
+  constexpr double kRounding = 1e-9;  // 130 km/h may be 13 bins less its last bits
+  std::vector<SpeedBin> bins;
+  for (int bin = static_cast<int>(from_m_s / kBin_m_s + kRounding); bin > 0; --bin) {
+    const double high_m_s = bin * kBin_m_s, low_m_s = high_m_s - kBin_m_s;
+    const std::optional<double> first_s = calc_mean_time_s(runs, +1, high_m_s, low_m_s);
+    const std::optional<double> second_s = calc_mean_time_s(runs, -1, high_m_s, low_m_s);
+    if (first_s.has_value() && second_s.has_value()) bins.push_back({high_m_s, low_m_s, *first_s, *second_s});
+  }
+  return bins;
 }
 
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
@@ -83,6 +140,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   for (const sim::PhaseSpan& phase : outcome.recording.phases) {
     if (is_coastdown(phase.name)) results.coastdowns.push_back({phase.name, phase.end_s - phase.start_s});
   }
+  results.bins = make_bins(inputs.data.runs, settings.coastdowns.from_m_s);
   results.on_road = is_on_road(spec.rig.kind->traits);
   outcome.warnings.insert(outcome.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   constexpr double kLowest_K = kZeroCelsius_K + 5.0;  // SAE J2263: air temperature during a test

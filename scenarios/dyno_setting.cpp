@@ -50,7 +50,7 @@ struct Difference {
     visit(Result{"target_N", "road", ".1f", "force on the road"}, target_N);
     visit(Result{"found_N", "rollers", ".1f", "force on the rollers"}, found_N);
     visit(Result{"difference_N", "off", "+.2f", "the second less the first"}, found_N - target_N);
-    visit(Remark{"set N"}, fmt::format("{:.1f}", set_N));
+    visit(Result{"set_N", "set", ".1f", "force of the rollers"}, set_N);
   }
 };
 

@@ -64,7 +64,7 @@ struct Results {
   std::vector<Cycle> cycles;
   std::optional<double> mean_rrc;
   std::optional<double> rrc_sd;
-  std::string tire_file_says;
+  std::optional<double> tire_file_rrc;
 
   void visit(ResultSheet& visit) const {
     cycle.visit(visit);
@@ -76,6 +76,10 @@ struct Results {
     visit(Result{"pressure_set_kPa", "", ".1f", "as set after the soak, gauge"}, pressure_set_Pa);
     visit(Result{"pressure_verified_kPa", "", ".1f", "at the end of the check, which the standard asks for, gauge"},
           pressure_verified_Pa);
+    visit(Result{"tire_file.rrc_N_per_kN", "", ".3f", "RRc that the file of the tire states"}.or_left_out(),
+          tire_file_rrc);
+    visit(Result{"tire_file.difference_percent", "", "+.2f", "of rrc_25degC_2m_N_per_kN from it"}.or_left_out(),
+          calc_difference_to_file());
     visit(ResultList{"cycles", "Cycles", "every cycle, when there are several", kCycleWindows, true}, cycles);
     visit(Result{"rrc_cycles_mean_N_per_kN", "", ".3f", "mean of RRc over the cycles"}.or_left_out(), mean_rrc);
     visit(Result{"rrc_cycles_sd_N_per_kN", "", ".3f", "sample standard deviation of RRc over the cycles"}.or_left_out(),
@@ -97,7 +101,7 @@ struct Results {
     } else {
       visit(JointLine{"RRc at 25 degC, 2 m drum", "{rrc_25degC_2m_N_per_kN} by the {method} method"});
     }
-    visit(Remark{"  tire file says"}, tire_file_says);
+    visit(JointLine{"  tire file says", "{tire_file.rrc_N_per_kN}, difference {tire_file.difference_percent}"});
     visit_label_lines(visit);
     visit(
         JointLine{"RRc of all cycles", "{rrc_cycles_mean_N_per_kN} +- {rrc_cycles_sd_N_per_kN} (standard deviation)"});
@@ -105,6 +109,10 @@ struct Results {
   }
 
  private:
+  std::optional<double> calc_difference_to_file() const {
+    return tire_file_rrc.has_value() ? std::optional(corrected_rrc / *tire_file_rrc - 1.0) : std::nullopt;
+  }
+
   void visit_headlines(ResultSheet& visit) const {
     const char* label = "RRc at 25 degC, 2 m drum";
     if (uncertainty.has_value()) {
@@ -282,11 +290,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     std::tie(results.mean_rrc, results.rrc_sd) = calc_repeatability(cycles);
     results.cycles = cycles;
   }
-  if (spec.tire.iso_28580.has_value()) {
-    const double reference = spec.tire.iso_28580->rrc;
-    results.tire_file_says = fmt::format("{}, difference {:+.2f} %", show_number("rrc_N_per_kN", ".3f", reference),
-                                         100.0 * (results.corrected_rrc / reference - 1.0));
-  }
+  if (spec.tire.iso_28580.has_value()) results.tire_file_rrc = spec.tire.iso_28580->rrc;
   constexpr double kTooShort = 0.02;  // Assumed: more than tires of class C1 lack after the standard's warm-up
   if (std::abs(results.cycle.unsettled.value_or(0.0)) > kTooShort) {
     outcome.warnings.push_back(

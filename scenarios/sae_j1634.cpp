@@ -76,8 +76,9 @@ struct Results {
 
   void visit(ResultSheet& visit) const {
     visit(Remark{"Wheels simulated"}, wheels);
-    visit(Remark{"Load of the tire"}, show_number("load_N", ".0f", load_N));
-    visit(Remark{"Counted above"}, show_number("speed_km_h", ".0f", count_from_m_s));
+    visit(Result{"load_N", "Load of the tire", ".0f", "at rest, of the tire that the sections show"}, load_N);
+    visit(Result{"counted_above_km_h", "Counted above", ".0f", "speed below which energies do not count"},
+          count_from_m_s);
     visit(Result{"iso_rrc_true_N_per_kN", "ISO coefficient", ".3f",
                  "of the tire's file, with the loss that its skim test subtracted; empty where it has none"},
           iso_rrc);

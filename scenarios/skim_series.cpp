@@ -26,8 +26,8 @@ struct Point {
   void visit(ResultSheet& visit) const {
     visit(Result{"load_N", "load", ".0f", "mean load"}, reading.load_N);
     visit(Result{"force_N", "force", ".3f", "motor torque over drum radius"}, reading.force_N);
-    visit(Remark{"tire N (simulated)"}, fmt::format("{:.3f}", tire_N));
-    visit(Remark{"tire degC"}, fmt::format("{:.1f}", reading.liner_temperature_K - kZeroCelsius_K));
+    visit(Result{"tire_N", "tire (simulated)", ".3f", "loss of the tire alone, which only a simulation knows"}, tire_N);
+    visit(Result{"liner_temperature_degC", "liner", ".1f", "mean over the window"}, reading.liner_temperature_K);
   }
 };
 

@@ -54,13 +54,14 @@ struct Results {
   WarmUpCurve curve;
   double start_excess = 0.0;
   double warm_up_s = 0.0;
-  double pressure_set_kPa = 0.0;
+  double pressure_set_Pa = 0.0;
   std::string band;
 
   void visit(ResultSheet& visit) const {
     cycle.visit(visit);
     visit(JointLine{"Load, speed", "{load_N}, {speed_km_h}"});
-    visit(JointLine{"Pressure set / warm", fmt::format("{:.1f} / ", pressure_set_kPa) + "{cavity_pressure_kPa}"});
+    visit(Result{"pressure_set_kPa", "", ".1f", "as set before the test, gauge"}, pressure_set_Pa);
+    visit(JointLine{"Pressure set / warm", "{pressure_set_kPa} / {cavity_pressure_kPa}"});
     visit(JointLine{"Liner temperature at the end", "{liner_temperature_degC}"});
     Cycle::visit_lines(visit);
     visit(Result{"start_rolling_resistance_N", "Rolling resistance, start", ".2f",
@@ -124,7 +125,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   results.curve = read_curve(settings, spec, results.cycle, outcome);
   results.start_excess = results.curve.start_N / results.cycle.rolling_resistance_N - 1.0;
   results.warm_up_s = outcome.recording.phase_named("warm-up").end_s;
-  results.pressure_set_kPa = *settings.conditions.pressure_Pa / 1e3;
+  results.pressure_set_Pa = *settings.conditions.pressure_Pa;
   results.band =
       fmt::format("{:.0f} to {:.0f} degC", settings.band_low_K - kZeroCelsius_K, settings.band_high_K - kZeroCelsius_K);
   return results;

@@ -37,6 +37,17 @@ struct AlignmentResult {
 AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& input);
 
 /// `rollrig-alignment/1`.
+/// A value in the range of the alignment tires, aligned, and the interval of 95 % of one measurement and of the mean of
+/// three.
+struct AlignedExample {
+  double measured_N_per_kN = 0.0;
+  double aligned_N_per_kN = 0.0;
+  double expanded_of_one_N_per_kN = 0.0;
+  double expanded_of_three_N_per_kN = 0.0;
+};
+/// Of the least, the middle and the greatest value of the alignment tires.
+std::vector<AlignedExample> list_aligned_examples(const AlignmentResult& result);
+
 Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& result);
 /// The numbers of such a document that a later value needs.
 struct StoredAlignment {

@@ -133,6 +133,18 @@ AlignmentLine read_line(const Json& document, const std::string& file) {
 
 }  // namespace
 
+std::vector<AlignedExample> list_aligned_examples(const AlignmentResult& result) {
+  std::vector<AlignedExample> examples;
+  const double low = result.fit.points.front().x, high = result.fit.points.back().x;
+  for (const double share : {0.0, 0.5, 1.0}) {
+    const double measured = low + share * (high - low);
+    const UncertainValue one = align_value(result.line, measured, 1);
+    const UncertainValue three = align_value(result.line, measured, 3);
+    examples.push_back({measured, one.value, one.coverage_factor * one.sd, three.coverage_factor * three.sd});
+  }
+  return examples;
+}
+
 Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& result) {
   Json json = {{"format", kAlignmentFormat}, {"file", file.path}, {"machine", file.machine}};
   if (!file.reference_machine.empty()) json["reference_machine"] = file.reference_machine;
@@ -148,11 +160,18 @@ Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& resul
   json["align_again_because"] = result.due_because;
   json["A1"] = result.line.A1;
   json["B1_N_per_kN"] = result.line.B1;
+  json["aligned"] = {{"factor", result.line.calc_factor()}, {"offset_N_per_kN", result.line.calc_offset()}};
   json["line"] = make_line_json(result.fit);
   json["sigma_m_N_per_kN"] = alignment_json(result.sigma_m);
   if (result.sigma_l.has_value()) json["sigma_of_reference_N_per_kN"] = alignment_json(*result.sigma_l);
   json["measurements_needed"] = result.needed_measurements;
   json["range_measured_N_per_kN"] = {result.fit.points.front().x, result.fit.points.back().x};
+  json["aligned_examples"] = make_list(list_aligned_examples(result), [](const AlignedExample& at) {
+    return Json{{"measured_N_per_kN", at.measured_N_per_kN},
+                {"aligned_N_per_kN", at.aligned_N_per_kN},
+                {"expanded_of_one_N_per_kN", at.expanded_of_one_N_per_kN},
+                {"expanded_of_three_N_per_kN", at.expanded_of_three_N_per_kN}};
+  });
   json["tires"] = Json::array();
   for (std::size_t i = 0; i < file.tires.size(); ++i) {
     json["tires"].push_back(make_tire_json(file.tires[i], result.fit.points[i]));

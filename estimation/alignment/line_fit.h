@@ -104,6 +104,10 @@ struct AlignmentLine {
   double line_sd = 0.0, line_freedom = 1.0;        // s
   double between_sd = 0.0, between_freedom = 1.0;  // tau
   double sigma_m = 0.0, sigma_m_freedom = 1.0;
+
+  /// y = factor x + offset
+  double calc_factor() const { return A1 * A2; }
+  double calc_offset() const { return A1 * B2 + B1; }
 };
 
 /// The aligned value of a tire that was measured so many times on the candidate machine.

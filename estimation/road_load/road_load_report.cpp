@@ -116,6 +116,19 @@ Json options_json(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
   return json;
 }
 
+Json forces_json(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
+  const std::string key = std::string("force_") + force_unit(fit);
+  return make_list(list_shown_forces(options, fit), [&key](const ShownForce& at) {
+    Json force = {{"speed_km_h", kKmhPerMs * at.speed_m_s}, {key, at.force_N}, {key + "_sd", at.sd_N}};
+    if (at.target_N.has_value()) {
+      force["target_N"] = *at.target_N;
+      force["over_target_percent"] = at.calc_over_target_percent();
+    }
+    force["outside_the_data"] = at.is_outside;
+    return force;
+  });
+}
+
 Json points_json(const CoastdownFile& file, const RoadLoadFit& fit) {
   const std::string unit = force_unit(fit);
   Json points = Json::array();
@@ -207,6 +220,27 @@ const char* name_of(CheckStatus status) {
   return status == CheckStatus::kPass ? "pass" : "fail";
 }
 
+const std::vector<double>& shown_speeds_m_s() {
+  static const std::vector<double> speeds{20.0 / kKmhPerMs, 50.0 / kKmhPerMs, 80.0 / kKmhPerMs, 100.0 / kKmhPerMs,
+                                          130.0 / kKmhPerMs};
+  return speeds;
+}
+
+std::vector<ShownForce> list_shown_forces(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
+  constexpr double kMargin_m_s = 0.1;  // Assumed: speeds of the data's ends are not sharper than this
+  std::vector<ShownForce> forces;
+  for (const double speed_m_s : shown_speeds_m_s()) {
+    ShownForce at{speed_m_s, fit.force_N(speed_m_s), fit.force_sd_N(speed_m_s), {}};
+    if (options.target.has_value()) {
+      const auto& target = *options.target;
+      at.target_N = target[0] + speed_m_s * (target[1] + speed_m_s * target[2]);
+    }
+    at.is_outside = speed_m_s < fit.low_m_s - kMargin_m_s || speed_m_s > fit.high_m_s + kMargin_m_s;
+    forces.push_back(at);
+  }
+  return forces;
+}
+
 Json make_road_load_json(const CoastdownFile& file, const RoadLoadFitOptions& options, const RoadLoadFit& fit,
                          const RoadLoadChecks& checks) {
   Json json = {{"format", "rollrig-road-load/1"}, {"input", file.is_trace ? "trace" : "bins"}};
@@ -232,6 +266,7 @@ Json make_road_load_json(const CoastdownFile& file, const RoadLoadFitOptions& op
   }
   json["corrected"] = {{"ambient", fit.ambient_corrected}, {"measured_wind", fit.wind_corrected}};
   json["options"] = options_json(options, fit);
+  json["forces"] = forces_json(options, fit);
   json["scatter"] = scatter_json(fit);
   json["slope"] = number_or_null(fit.slope);
   if (fit.slope.has_value()) json["slope_sd"] = fit.slope_sd;

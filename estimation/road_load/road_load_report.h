@@ -1,7 +1,9 @@
 #pragma once
 /// A fitted road load as JSON and as CSV.
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "estimation/road_load/coastdown_file.h"
 #include "estimation/road_load/road_load_checks.h"
@@ -29,6 +31,21 @@ std::vector<ParameterEstimate> list_coefficients_lbf_mph(const RoadLoadFit& fit)
 std::vector<ParameterEstimate> list_coefficients(const RoadLoadFit& fit);
 
 const char* name_of(CheckStatus status);
+
+/// Speeds at which the force of a fitted road load is shown: 20, 50, 80, 100 and 130 km/h.
+const std::vector<double>& shown_speeds_m_s();
+
+/// The force of a fitted road load at one of these speeds.
+struct ShownForce {
+  double speed_m_s = 0.0;
+  double force_N = 0.0;  // per unit of mass where no mass is given
+  double sd_N = 0.0;
+  std::optional<double> target_N;
+  bool is_outside = false;  // of the speeds of the data
+
+  double calc_over_target_percent() const { return 100.0 * (force_N / target_N.value() - 1.0); }
+};
+std::vector<ShownForce> list_shown_forces(const RoadLoadFitOptions& options, const RoadLoadFit& fit);
 
 /// `road_load.json`: see docs/formats.md.
 Json make_road_load_json(const CoastdownFile& file, const RoadLoadFitOptions& options, const RoadLoadFit& fit,

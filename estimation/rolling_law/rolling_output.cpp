@@ -25,6 +25,7 @@ Json force_json(const ForceEstimate& estimate, int freedom) {
   json["sd_N"] = freedom > 0 ? law_number(estimate.sd_N) : Json();
   json["ci95_N"] = {freedom > 0 ? law_number(estimate.value_N - reach) : Json(),
                     freedom > 0 ? law_number(estimate.value_N + reach) : Json()};
+  json["half_width_95_N"] = freedom > 0 ? law_number(reach) : Json();
   return json;
 }
 

@@ -80,6 +80,7 @@ Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) 
   json["at_speeds"] = make_at_speeds_json(fit.at_speeds);
   json["steady"] = make_steady_json(fit.steady);
   json["chi2_per_sample"] = fit.chi2_per_sample;
+  json["rest_in_noise"] = std::sqrt(fit.chi2_per_sample);
   json["channels"] = Json::array();
   for (const ChannelFit& channel : fit.channels) {
     json["channels"].push_back(

@@ -1,6 +1,7 @@
 #include "scenarios/run/results.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -18,6 +19,8 @@ double to_file_unit(const Unit& unit, double value_SI) {
 std::string show(const char* digits, double value) {
   return std::isnan(value) ? "" : fmt::format(fmt::runtime(fmt::format("{{:{}}}", digits)), value);
 }
+
+std::string make_total_key(const ResultList& list) { return std::string(list.key) + "_total"; }
 
 /// With a blank between, where there are both.
 std::string join(const std::string& text, const std::string& unit) {
@@ -56,8 +59,9 @@ void ResultSheet::operator()(const Remark& remark, const std::string& text) {
 void ResultSheet::add(const Result& result, const Json& value, const std::string& text) {
   const std::string unit = unit_of_key(result.key).symbol;
   infos.push_back({result.key, result.doc});
-  if (!(result.left_out && value.is_null())) json[result.key] = value;
-  shown_[result.key] = {text, unit, result.key};
+  const std::string place = boost::algorithm::replace_all_copy(std::string(result.key), ".", "/");
+  if (!(result.left_out && value.is_null())) json[Json::json_pointer("/" + place)] = value;
+  shown_[result.key] = {text, unit, place};
   if (!text.empty()) lines.push_back({result.label, join(text, unit), result.key});
   for (const Column column : {Column::kFirst, Column::kSecond}) {
     if (result.column != column && result.column != Column::kBoth) continue;
@@ -109,12 +113,11 @@ void ResultSheet::operator()(const Headline& headline) {
 }
 
 void ResultSheet::add(const ResultList& list, const ResultSheet& declared, const std::vector<ResultSheet>& sheets,
-                      bool has_total) {
+                      std::size_t records) {
   infos.push_back({list.key, list.doc});
   for (const ResultInfo& info : declared.infos) infos.push_back({fmt::format("{}[].{}", list.key, info.key), info.doc});
   if (!(list.left_out && sheets.empty())) json[list.key] = Json::array();
-  for (std::size_t i = 0; i + (has_total ? 1 : 0) < sheets.size(); ++i) json[list.key].push_back(sheets[i].json);
-  const std::size_t records = sheets.size() - (has_total ? 1 : 0);
+  for (std::size_t i = 0; i < records; ++i) json[list.key].push_back(sheets[i].json);
   show_record(list.key, "first", 0, records > 0 ? sheets.front() : declared);
   show_record(list.key, "last", records > 0 ? records - 1 : 0, records > 0 ? sheets[records - 1] : declared);
   for (const std::size_t at : {0U, 1U}) {
@@ -122,6 +125,20 @@ void ResultSheet::add(const ResultList& list, const ResultSheet& declared, const
     Table table{at == 0 ? list.title : list.second_title, declared.headings_[at], {}};
     for (const ResultSheet& sheet : sheets) table.rows.push_back(sheet.cells_[at]);
     tables.push_back(std::move(table));
+  }
+}
+
+void ResultSheet::declare_total(const ResultList& list, const ResultSheet& declared) {
+  infos.push_back({make_total_key(list), fmt::format("all of {} together", list.key)});
+  for (const ResultInfo& info : declared.infos) {
+    infos.push_back({fmt::format("{}.{}", make_total_key(list), info.key), info.doc});
+  }
+}
+
+void ResultSheet::add_total(const ResultList& list, const ResultSheet& total) {
+  Json& record = json[make_total_key(list)] = Json::object();
+  for (const auto& [key, value] : total.json.items()) {
+    if (!value.is_number() || std::isfinite(value.get<double>())) record[key] = value;
   }
 }
 

@@ -31,7 +31,8 @@ struct ResultInfo {
 /// Which of the two tables of a list of records shows a column.
 enum class Column { kFirst, kSecond, kBoth };
 
-/// Declaration of one result. Its unit is read off the key's suffix; the value that goes with it is SI.
+/// Declaration of one result. Its unit is read off the key's suffix; the value that goes with it is SI. A key with a dot
+/// is of an object in JSON: "tire_file.rrc_N_per_kN". Sweeps draw no such result unless asked for it.
 struct Result {
   const char* key;
   const char* label;   // before its value, or over its column, where the unit follows; "": in no line of its own
@@ -120,14 +121,22 @@ class ResultSheet {
   void operator()(const Remark& remark, const std::string& text);
   void operator()(const JointLine& line);
   void operator()(const Headline& headline);
-  /// `total`, for a person alone, is the last row of the tables; what it lacks is NaN.
   template <class Record>
-  void operator()(const ResultList& list, const std::vector<Record>& records,
-                  const std::optional<Record>& total = std::nullopt) {
-    std::vector<ResultSheet> sheets;
-    for (const Record& record : records) sheets.push_back(of(record));
-    if (total.has_value()) sheets.push_back(of(*total));
-    add(list, of(Record{}), sheets, total.has_value());
+  void operator()(const ResultList& list, const std::vector<Record>& records) {
+    add(list, of(Record{}), list_sheets(records), records.size());
+  }
+  /// With a record of all records together: the last row of the tables, and in JSON an object beside the list, such as
+  /// "sections_total". Numbers of it that are NaN have no value; JSON leaves them out.
+  template <class Record>
+  void operator()(const ResultList& list, const std::vector<Record>& records, const std::optional<Record>& total) {
+    const ResultSheet declared = of(Record{});
+    declare_total(list, declared);
+    std::vector<ResultSheet> sheets = list_sheets(records);
+    if (total.has_value()) {
+      sheets.push_back(of(*total));
+      add_total(list, sheets.back());
+    }
+    add(list, declared, sheets, records.size());
   }
 
  private:
@@ -147,7 +156,17 @@ class ResultSheet {
   using Row = std::vector<std::string>;
 
   void add(const Result& result, const Json& value, const std::string& text);
-  void add(const ResultList& list, const ResultSheet& declared, const std::vector<ResultSheet>& sheets, bool has_total);
+  template <class Record>
+  static std::vector<ResultSheet> list_sheets(const std::vector<Record>& records) {
+    std::vector<ResultSheet> sheets;
+    for (const Record& record : records) sheets.push_back(of(record));
+    return sheets;
+  }
+  /// Of `sheets`, the first `records` are records, and what follows is a row of the tables alone.
+  void add(const ResultList& list, const ResultSheet& declared, const std::vector<ResultSheet>& sheets,
+           std::size_t records);
+  void declare_total(const ResultList& list, const ResultSheet& declared);
+  void add_total(const ResultList& list, const ResultSheet& total);
   void show_record(const std::string& list, const char* which, std::size_t place, const ResultSheet& record);
   Filled fill(const std::string& text, bool with_last_unit) const;
 

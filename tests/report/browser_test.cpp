@@ -1,4 +1,4 @@
-// Pages of every command in headless Chromium, from file://: no message on the console, nothing asked of a network,
+// Pages in headless Chromium, from file://: no message on the console, nothing asked of a network,
 // charts drawn in pixels, the slider moves the animation, first paint within two seconds, no larger than two megabytes.
 #include <fmt/format.h>
 
@@ -6,10 +6,7 @@
 #include <filesystem>
 
 #include "build_paths.h"
-#include "report/fit_pages.h"
 #include "sim/core/csv.h"
-#include "tests/support/coast_study.h"
-#include "tests/support/coastdown_study.h"
 #include "tests/support/run_program.h"
 #include "tests/validation/scoring/validation_set_folder.h"
 
@@ -54,21 +51,13 @@ void write_set(const TemporaryFolder& folder) {
 
 TEST_CASE("page of an ISO test on the multibody drum", "[slow]") {
   const TemporaryFolder folder;
-  check_command(folder, "run iso_28580 --tire a50 --out run",
-                "--charts 2 --animation --section --equations 4 --recording '" + folder.file("run/recording.csv") + "'");
+  check_command(
+      folder, "run iso_28580 --tire a50 --out run",
+      "--charts 2 --animation --section --equations 4 --recording '" + folder.file("run/recording.csv") + "'");
 }
 
 TEST_CASE("page of a multi-cycle test of a quarter on its roller", "[slow]") {
   check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --set wheels=1", "--charts 4 --animation --section");
-}
-
-TEST_CASE("page of a multi-cycle test of four wheels, four hours long", "[slow]") {
-  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --fidelity quasi_static",
-                "--charts 4 --animation --section");
-}
-
-TEST_CASE("page of a vehicle that coasts down on the road", "[slow]") {
-  check_command(TemporaryFolder(), "run coastdown --tire a50", "--charts 3 --animation --section");
 }
 
 TEST_CASE("page of two hours with ten rows a second", "[slow]") {
@@ -77,43 +66,6 @@ TEST_CASE("page of two hours with ten rows a second", "[slow]") {
              "format = \"rollrig-run/1\"\nscenario = \"warm_up\"\ntire = \"a50\"\nsensors = \"source\"\n"
              "sample_interval_s = 0.1\n[settings]\nwarm_up_min = 120.0\n");
   check_command(folder, "run long.toml", "--charts 2 --animation");
-}
-
-TEST_CASE("page of a sweep", "[slow]") {
-  check_command(TemporaryFolder(), "sweep iso_28580 --tire a50 --fidelity quasi_static --vary pressure_kPa=210:310:50",
-                "--charts 3");
-}
-
-TEST_CASE("page of a sweep over tires", "[slow]") {
-  check_command(TemporaryFolder(), "sweep iso_28580 --fidelity quasi_static --vary tire=a40,a50,a60", "--charts 3");
-  check_command(TemporaryFolder(),
-                "sweep iso_28580 --fidelity quasi_static --vary tire=a40,a50 --vary pressure_kPa=230:270:20",
-                "--charts 3");
-}
-
-TEST_CASE("pages of comparisons of results, sets and tires", "[slow]") {
-  const TemporaryFolder folder;
-  for (const char* tire : {"a40", "a50"}) {
-    const std::string made =
-        fmt::format("run iso_28580 --tire {0} --sensors source --uncertainty --out {0} --write-set {0}_set", tire);
-    REQUIRE(run_program(made, folder.path()).status == 0);
-  }
-  check_command(folder, "compare ./a40 ./a50", "--charts 3");  // bars, waterfall, channels
-  check_command(folder, "compare a40_set a50_set", "--charts 2");
-  check_command(TemporaryFolder(), "compare a40 a50 a60", "--charts 1");
-}
-
-TEST_CASE("pages of the sensitivity of a result", "[slow]") {
-  for (const char* design : {"sobol_indices", "morris"}) {
-    const TemporaryFolder folder;
-    const std::string factors =
-        "--draw ambient_degC=uniform:20:30 --draw pressure_kPa=normal:250:5 --draw tire.bounded.loss_N=normal:33.8:0.3";
-    const std::string made = fmt::format(
-        "campaign new c iso_28580 --tire a50 --fidelity quasi_static --design {} --points 20 {}", design, factors);
-    REQUIRE(run_program(made, folder.path()).status == 0);
-    REQUIRE(run_program("campaign run c", folder.path()).status == 0);
-    check_command(folder, "campaign sensitivity c --result rrc_N_per_kN", "--charts 4");
-  }
 }
 
 TEST_CASE("pages of tires, sets and runs whose names hold a script", "[slow]") {
@@ -146,24 +98,6 @@ TEST_CASE("pages of tires, sets and runs whose names hold a script", "[slow]") {
   check_command(folder, "fit tire set", "--charts 3" + shows);
 }
 
-TEST_CASE("page of regression runs", "[slow]") {
-  const TemporaryFolder folder;
-  for (const char* file : {"skim_a40.toml", "skim_a40.golden.csv", "iso_28580_a50_quasi_static.toml"}) {
-    fs::copy_file(fs::path(ROLLRIG_SOURCE_DIR) / "assets/regression" / file, folder.file(file));
-  }
-  check_command(folder, "regress .", "--charts 1", 1);  // one has no golden
-}
-
-TEST_CASE("pages of a diagnosis, of a fitted tire and of several diagnoses", "[slow]") {
-  const TemporaryFolder folder;
-  write_set(folder);
-  check_command(folder, "diagnose set --only bearing_warmup,load_exponent", "--charts 3");
-  check_command(folder, "fit tire set", "--charts 3");
-  fs::create_directory(folder.file("sets"));
-  for (const char* name : {"sets/one", "sets/two"}) fs::copy(folder.file("set"), folder.file(name));
-  check_command(folder, "diagnose sets --only bearing_warmup,load_exponent", "--charts 1");
-}
-
 TEST_CASE("page of a set with a run that measured nothing", "[slow]") {
   const TemporaryFolder folder;
   write_set(folder);
@@ -181,56 +115,11 @@ TEST_CASE("page of a set with a run that measured nothing", "[slow]") {
   check_command(folder, "diagnose set --only bearing_warmup,load_exponent", "--charts 2");
 }
 
-TEST_CASE("page of a fitted road load", "[slow]") {
-  const TemporaryFolder folder;
-  write_file(folder.file("coast.csv"), write_coastdown_csv(simulate_coastdowns({}, 1)));
-  check_command(folder, "fit road-load coast.csv --mass 2100", "--charts 2");
-}
-
-TEST_CASE("page of a drum's coast-downs", "[slow]") {
-  const TemporaryFolder folder;
-  const estimation::CoastSet set = make_coasts({}, 1);
-  const report::Page page = report::make_drum_coastdown_page(set, estimation::fit_drum_coastdown(set));
-  write_file(folder.file("page.html"), report::make_html(page));
-  check_page(folder.file("page.html"), "--charts 2");
-}
-
 TEST_CASE("page of a score", "[slow]") {
   const ValidationSetFolder made;
   REQUIRE(run_validation("run set --quiet", made.folder.path()).status == 0);
   REQUIRE(run_validation("score set --quiet --html page.html", made.folder.path()).status == 0);
   check_page(made.folder.file("page.html"), "--charts 1");
-}
-
-TEST_CASE("texts, legends and plots of every kind of page stay apart in every width, theme and on paper", "[slow]") {
-  const TemporaryFolder folder;
-  const std::string examples = std::string(ROLLRIG_SOURCE_DIR) + "/assets/examples/";
-  write_set(folder);
-  const std::vector<std::pair<std::string, std::string>> pages{
-      {"iso", "run iso_28580 --tire a50 --sensors source"},
-      {"coastdown", "run coastdown --tire a50 --set pairs=3 --fidelity quasi_static"},
-      {"multi_cycle", "run sae_j1634 --tire a50 --fidelity quasi_static"},
-      {"sweep",
-       "sweep iso_28580 --tire a50 --fidelity quasi_static --vary pressure_kPa=230:270:20 --vary "
-       "ambient_degC=20:30:5"},
-      {"sweep_of_tires", "sweep iso_28580 --fidelity quasi_static --vary tire=a40,a50,a60"},
-      {"compare", "compare a40 a50"},
-      {"diagnosis", "diagnose set --only bearing_warmup,load_exponent"},
-      {"fit_tire", "fit tire set"},
-      {"fit_road_load", "fit road-load " + examples + "coastdown_bins.csv --mass 2203"},
-      {"align", "align " + examples + "alignment.csv --reference-machine drum_A --reference 1.003 -0.05"},
-      {"fit_j2452", "fit j2452 " + examples + "j2452_points.csv --maximum-load 6570 --base-pressure 240"}};
-  std::string files;
-  for (const auto& [name, command] : pages) {
-    const ProgramResult made = run_program(fmt::format("{} --html {}.html", command, name), folder.path());
-    INFO(command << '\n' << made.err);
-    REQUIRE(made.status == 0);
-    files += " '" + folder.file(name + ".html") + "'";
-  }
-  const std::string script = std::string(ROLLRIG_SOURCE_DIR) + "/tests/report/check_boxes.mjs";
-  const ProgramResult checked = run_other(ROLLRIG_NODE, "'" + script + "'" + files);
-  INFO(checked.out << checked.err);
-  CHECK(checked.status == 0);
 }
 
 TEST_CASE("a page goes to standard output alone, and is refused where it cannot be", "[fast]") {

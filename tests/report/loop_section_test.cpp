@@ -28,6 +28,6 @@ TEST_CASE("the ledger of a loop is a step for each answer, to the hours that are
   CHECK(cause["x"] == Json({0.0, 1.5, 3.5}));  // the failed test took its hours
   CHECK(cause["y"] == Json({40.0, 97.0, 97.0}));
   CHECK(section.blocks[0]["series"][2]["y"][0] == 5.0);
-  CHECK(section.blocks[1]["rows"][1][2] == "bearing_warmup");
+  CHECK(section.blocks[1]["rows"][1][2] == "bearing warmup");
   CHECK(report::make_loop_section(LoopLedger()).blocks.empty());
 }

@@ -1,20 +1,17 @@
-// What a page says at a glance, and that its numbers are those of the JSON.
+// What a page says at a glance.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <regex>
 
-#include "build_paths.h"
 #include "models/quantities.h"
 #include "report/blocks.h"
 #include "report/list_pages.h"
 #include "report/run_page.h"
+#include "report/sweep_values.h"
 #include "sim/core/text.h"
-#include "tests/support/run_program.h"
 
 using namespace rollrig;
-using namespace rollrig::tests;
 using scenarios::Headline;
 using scenarios::JointLine;
 using scenarios::Result;
@@ -41,97 +38,6 @@ struct Results {
     visit(Headline{"Load of the first", "{cycles.first.load_N}", "RRc {rrc_N_per_kN}"});
   }
 };
-
-Json read_page(const std::string& file) {
-  const std::string html = read_file(file);
-  const std::string mark = "id=\"payload\">";
-  const std::size_t first = html.find(mark) + mark.size();
-  return Json::parse(html.substr(first, html.find("</script>", first) - first));
-}
-
-std::vector<double> list_numbers_of(const Json& json) {
-  std::vector<double> numbers;
-  const Json flat = json.flatten();
-  for (const auto& [key, value] : flat.items()) {
-    if (value.is_number()) numbers.push_back(value.get<double>());
-  }
-  return numbers;
-}
-
-/// Numbers of a text with as many digits as they are shown with.
-std::vector<std::string> list_shown(const std::string& text) {
-  static const std::regex number(R"([-+]?\d+(\.\d+)?(e[-+]\d+)?)");
-  std::vector<std::string> shown;
-  for (auto at = std::sregex_iterator(text.begin(), text.end(), number); at != std::sregex_iterator(); ++at) {
-    shown.push_back(at->str());
-  }
-  return shown;
-}
-
-/// Whether a number as shown is this one: half of its last digit.
-bool is_shown_as(const std::string& shown, double value) {
-  const std::size_t exponent_at = shown.find('e');
-  const std::string mantissa = shown.substr(0, exponent_at);
-  const std::size_t point = mantissa.find('.');
-  const int decimals = point == std::string::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
-  const int exponent = exponent_at == std::string::npos ? 0 : std::stoi(shown.substr(exponent_at + 1));
-  // The rounding of the number itself, and a few last bits of the arithmetic.
-  return std::abs(*parse_number(shown) - value) <= 0.5001 * std::pow(10.0, exponent - decimals) + 1e-12;
-}
-
-/// Four digits or a decimal point: less is a count or a name, and is in any JSON by chance.
-bool tells(const std::string& shown) { return shown.size() >= 4 && shown.find('.') != std::string::npos; }
-
-void check_tiles(const Json& page, const Json& json) {
-  std::size_t compared = 0;
-  for (const Json& section : page["sections"]) {
-    for (const Json& block : section["blocks"]) {
-      if (block["type"] != "tiles") continue;
-      for (const Json& tile : block["tiles"]) {
-        const Json from = tile.value("from", Json::array());
-        const std::vector<std::string> shown = list_shown(tile["value"]);
-        for (std::size_t i = 0; i < from.size(); ++i) {
-          const Json::json_pointer place(from[i].get<std::string>());
-          INFO(tile.dump());
-          REQUIRE(json.contains(place));
-          if (!json[place].is_number()) continue;
-          // A probability is shown in percent.
-          const double factor = tile["value"].get<std::string>().find('%') != std::string::npos ? 100.0 : 1.0;
-          REQUIRE(i < shown.size());
-          CHECK(is_shown_as(shown[i], factor * json[place].get<double>()));
-          ++compared;
-        }
-      }
-    }
-  }
-  CHECK(compared > 0);
-}
-
-/// Every number with a decimal point in a table of the sections is in the JSON.
-void check_tables(const Json& page, const Json& json) {
-  const std::vector<double> numbers = list_numbers_of(json);
-  std::size_t compared = 0;
-  for (const Json& section : page["sections"]) {
-    if (section["title"] == "Coastdowns") continue;  // times through bins are of the recording
-    for (const Json& block : section["blocks"]) {
-      if (block["type"] != "table") continue;
-      for (const Json& row : block["rows"]) {
-        if (row.front() == "all sections") continue;  // sums, which the JSON leaves to its readers
-        for (const Json& cell : row) {
-          if (!cell.is_string()) continue;
-          for (const std::string& shown : list_shown(cell)) {
-            if (!tells(shown)) continue;
-            INFO(block.value("caption", "") << ": " << row.dump() << ": " << shown);
-            CHECK(std::any_of(numbers.begin(), numbers.end(),
-                              [&shown](double number) { return is_shown_as(shown, number); }));
-            ++compared;
-          }
-        }
-      }
-    }
-  }
-  CHECK(compared > 0);
-}
 
 }  // namespace
 
@@ -163,6 +69,7 @@ TEST_CASE("a sweep says its first result's range and its sensitivity", "[fast]")
            {"result", {{"drum_torque_Nm", 40.0 + rrc}, {"rrc_25degC_2m_N_per_kN", rrc}, {"rrc_N_per_kN", 2.0 * rrc}}}});
     }
   }
+  sweep["sensitivities"] = report::list_sensitivities(sweep, {"rrc_25degC_2m_N_per_kN"});
   const report::Page page = report::make_sweep_page(sweep, {}, "");
   const std::vector<report::Block>& blocks = page.sections.front().blocks;
   REQUIRE(blocks.size() == 4);  // tiles, map, two charts: RRc as tested goes with the corrected one
@@ -217,30 +124,13 @@ TEST_CASE("panels over time show no ramp where a row of a minute ends, nothing t
   CHECK(torque["scale"][0].get<double>() > 46.0);
 }
 
-TEST_CASE("numbers of tiles and tables are those of the JSON", "[slow]") {
-  const TemporaryFolder folder;
-  const std::string assets = std::string(ROLLRIG_SOURCE_DIR) + "/assets/examples/";
-  for (const std::string& command : {std::string("run iso_28580 --tire a50 --fidelity quasi_static --sensors source"),
-                                     std::string("run load_sweep --tire a50 --fidelity quasi_static"),
-                                     std::string("run sae_j1634 --tire a50 --fidelity quasi_static"),
-                                     "fit j2452 " + assets + "j2452_points.csv --maximum-load 6570 --base-pressure 240",
-                                     "fit road-load " + assets + "coastdown_bins.csv --mass 2203 --method wltp"}) {
-    const ProgramResult made = run_program(command + " --json result.json --html page.html", folder.path());
-    INFO(command << '\n' << made.err);
-    REQUIRE(made.status == 0);
-    const Json json = Json::parse(read_file(folder.file("result.json")));
-    const Json page = read_page(folder.file("page.html"));
-    check_tiles(page, json);
-    if (command.rfind("run", 0) == 0) check_tables(page, json);
-  }
-}
-
 TEST_CASE("a sweep whose curve bends says the range of its slopes, and no single one", "[fast]") {
   Json sweep = {{"scenario", "iso_28580"}, {"points", Json::array()}};
   for (const int speed_km_h : {60, 80, 100}) {  // 5.0, 5.2 and 5.2: +2 % and 0 % per 10 km/h, about
     sweep["points"].push_back({{"set", {{"speed_km_h", std::to_string(speed_km_h)}}},
                                {"result", {{"rrc_25degC_2m_N_per_kN", speed_km_h == 60 ? 5.0 : 5.2}}}});
   }
+  sweep["sensitivities"] = report::list_sensitivities(sweep, {"rrc_25degC_2m_N_per_kN"});
   const report::Page page = report::make_sweep_page(sweep, {}, "");
   const Json& tiles = page.sections.front().blocks[0]["tiles"];
   REQUIRE(tiles.size() == 2);

@@ -41,7 +41,7 @@ TEST_CASE("the gap's waterfalls show what each step takes, in the force's unit a
   REQUIRE(blocks.size() == 2);
   CHECK(blocks[0]["unit"] == "N");
   CHECK(blocks[0]["start"]["value"] == 2.0);
-  CHECK(blocks[0]["steps"][1] == Json({{"name", "bearing_warmup"}, {"value", -1.0}}));
+  CHECK(blocks[0]["steps"][1] == Json({{"name", "bearing warmup"}, {"value", -1.0}}));
   CHECK(blocks[0]["end"]["value"] == 0.125);
   CHECK(blocks[1]["unit"] == "noise floors");
   CHECK(blocks[1]["steps"].size() == 3);
