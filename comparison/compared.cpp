@@ -48,6 +48,10 @@ void add_reason(const std::string& why, Difference& difference) {
   if (difference.value.has_value() && !difference.sd.has_value()) difference.why_no_interval = why;
 }
 
+bool shows_difference(const Difference& difference) {
+  return !difference.sd.has_value() || *difference.low_95 > 0.0 || *difference.high_95 < 0.0;
+}
+
 namespace {
 
 std::string describe_difference(const Comparison& comparison, const ComparedValue& value, std::size_t other) {
@@ -70,6 +74,9 @@ std::string describe_difference(const Comparison& comparison, const ComparedValu
     more += fmt::format("95 % interval {:.3g} to {:.3g}{}", *difference.low_95, *difference.high_95, unit);
   } else {
     more += "no interval";
+  }
+  if (!shows_difference(difference) && size != 0.0) {
+    return fmt::format("No difference is shown: {} ({}, which contains 0)", text, more);
   }
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return fmt::format("{} ({})", text, more);

@@ -51,6 +51,9 @@ void add_interval(double sd, double coverage_factor, Difference& difference);
 /// Says of a difference that has a value why it has no interval.
 void add_reason(const std::string& why, Difference& difference);
 
+/// Whether an interval does not contain 0; true where there is no interval.
+bool shows_difference(const Difference& difference);
+
 /// Makes a value the main one, with a sentence on it for each but the reference: "RRc of b is 0.62 N/kN lower than that
 /// of a (-7.1 %; 95 % interval -0.9 to -0.3 N/kN)".
 void choose_main(std::size_t value, Compared& compared);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -52,7 +53,7 @@ Block make_table(const Table& table) {
   for (const std::string& column : table.columns) block["columns"].push_back({{"label", pretty_unit(column)}});
   for (const std::vector<std::string>& row : table.rows) {
     if (table.columns.empty()) {
-      block["lines"].push_back({{"label", row[0]}, {"value", pretty_unit(row[1])}});
+      block["lines"].push_back({{"label", pretty_unit(row[0])}, {"value", pretty_unit(row[1])}});
       continue;
     }
     Json cells = Json::array();
@@ -156,6 +157,10 @@ std::string pretty_unit(std::string symbol) {
     const std::size_t first = symbol.find_last_of(' ', at) + 1;  // of no space: 0
     const bool is_of_key = symbol.substr(first, symbol.find(' ', at) - first).find('_') != std::string::npos;
     if (!is_of_key) symbol.replace(at, 4, "°C");
+  }
+  for (const auto& [plain, pretty] :
+       {std::pair("(km/h)2", "(km/h)²"), {"m/s2", "m/s²"}, {"s2/m2", "s²/m²"}, {"/mph2", "/mph²"}}) {
+    boost::algorithm::replace_all(symbol, plain, pretty);
   }
   return symbol;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "report/blocks.h"
+#include "report/diagnosis_page.h"
 #include "sim/core/text.h"
 
 namespace rollrig::report {
@@ -24,13 +25,19 @@ Block make_course(const PlannedCampaign& campaign) {
 Block make_shares(const PlannedCampaign& campaign) {
   Json names = Json::array();
   Json shares = Json::array();
-  for (const EffectVisibility& one : campaign.effects) {
-    names.push_back(one.effect);
-    shares.push_back(rounded(one.share_percent));
+  std::vector<const EffectVisibility*> effects;
+  for (const EffectVisibility& one : campaign.effects) effects.push_back(&one);
+  std::stable_sort(effects.begin(), effects.end(), [](const EffectVisibility* a, const EffectVisibility* b) {
+    return a->share_percent > b->share_percent;
+  });
+  for (const EffectVisibility* one : effects) {
+    names.push_back(name_effect(one->effect));
+    shares.push_back(rounded(one->share_percent));
   }
-  return make_bars({"Visible, of what is believed of the effect's size", "%"}, names,
-                   Json::array({{{"name", "visible"}, {"values", shares}}}),
-                   "Sizes above the smallest visible one, by what is believed before any test.");
+  return make_bars(
+      {"Chance that the effect is visible if it acts", "%"}, names,
+      Json::array({{{"name", "visible"}, {"values", shares}}}),
+      "The share of the sizes, by what is known of the effect before any test, that the tests would show.");
 }
 
 Section make_hand_work(const PlannedCampaign& campaign) {
@@ -53,7 +60,7 @@ Page make_campaign_page(const PlannedCampaign& campaign) {
       make_tiles({{"Visible effects",
                    fmt::format("{} of {}", visible, campaign.effects.size()),
                    "",
-                   "at their usual size",
+                   "unmodeled effects that these tests would show at their usual size",
                    visible > 0 ? "good" : "doubt",
                    {"/visible"}},
                   {"Time",
@@ -66,8 +73,8 @@ Page make_campaign_page(const PlannedCampaign& campaign) {
   what.blocks.push_back(make_lead(
       visible > 0 ? "good" : "doubt",
       fmt::format("{} of {} effects would be visible at their usual size.", visible, campaign.effects.size()),
-      "A visible effect changes the measurement by 5 standard deviations, whatever the numbers of the files are within "
-      "their uncertainty. It may still be taken for another effect."));
+      "A visible effect changes the measurement by 5 standard deviations more than the uncertain numbers of the files "
+      "can imitate. Which effect it is, the diagnosis of the tests says."));
   what.blocks.push_back(make_shares(campaign));
   what.blocks.push_back(make_table(diagnosis::make_visibility_table(campaign)));
   page.add(std::move(what));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "comparison/comparison_json.h"
 #include "report/blocks.h"
@@ -65,13 +66,35 @@ Block make_main_tiles(const Comparison& comparison, std::size_t main) {
           fmt::format("{} {} to {}", show_value(difference.value, "{:+.3g}"), value.unit, comparison.names.front());
       if (difference.percent.has_value()) tile.note += fmt::format(", {:+.1f} %", *difference.percent);
       if (difference.sd.has_value()) tile.note += fmt::format("; 95 % interval {}", show_limits(difference));
+      if (!comparison::shows_difference(difference)) {
+        tile.note += ": no difference is shown";
+        tile.tone = "doubt";
+      }
     }
     tiles.push_back(std::move(tile));
   }
   return make_tiles(tiles);
 }
 
-/// Values whose differences have a bar: those with an interval first, then those that differ most.
+/// Whether a result is a condition of the test rather than what it found.
+bool is_condition(const ComparedValue& value) {
+  static const std::set<std::string> kConditions{
+      "load_N", "speed_km_h", "skim_load_N", "pressure_set_kPa", "pressure_verified_kPa", "ambient_degC"};
+  return kConditions.count(value.name) > 0;
+}
+
+/// Whether two values differ alike, to rounding: one bar tells both.
+bool differ_alike(const ComparedValue& a, const ComparedValue& b) {
+  constexpr double kSame = 1e-6;
+  const auto is_same = [](const std::optional<double>& x, const std::optional<double>& y) {
+    return x.has_value() == y.has_value() && (!x.has_value() || std::abs(*x - *y) <= kSame * std::abs(*x));
+  };
+  return a.unit == b.unit && is_same(a.values.front(), b.values.front()) &&
+         is_same(a.differences.front().value, b.differences.front().value);
+}
+
+/// Values whose differences have a bar: no conditions of the test, nothing twice; those with an interval first, then
+/// those that differ most.
 std::vector<const ComparedValue*> choose_bars(const Comparison& comparison) {
   constexpr std::size_t kMost = 10;  // as many have room
   std::vector<const ComparedValue*> chosen;
@@ -79,7 +102,10 @@ std::vector<const ComparedValue*> choose_bars(const Comparison& comparison) {
     const bool is_of_list = value.name.find('.') != std::string::npos;  // or a number of a tire file
     const bool is_uncertainty = value.name.find("uncertainty") != std::string::npos;
     if (!value.differences.front().percent.has_value() || value.unit == "s" || is_of_list || is_uncertainty) continue;
-    if (*value.differences.front().percent != 0.0) chosen.push_back(&value);
+    if (*value.differences.front().percent == 0.0 || is_condition(value)) continue;
+    const bool is_known = std::any_of(chosen.begin(), chosen.end(),
+                                      [&value](const ComparedValue* one) { return differ_alike(*one, value); });
+    if (!is_known) chosen.push_back(&value);
   }
   const auto weigh = [](const ComparedValue* value) {
     const Difference& first = value->differences.front();

@@ -208,7 +208,8 @@ std::string describe_verdict(const Findings& findings) {
                        show_probability(diagnosis::probability_of(findings, "unknown")), like);
   }
   const Cause& cause = findings.causes.front();
-  std::string text = fmt::format("Explained: the gap is {}", join_effects(cause.effects, " with "));
+  std::string text =
+      fmt::format("Explained: measurement and simulation differ by {}", join_effects(cause.effects, " with "));
   const std::string alternatives = join_effects(cause.indistinguishable_from);
   if (!alternatives.empty() && cause.effects.size() == 1) text += " or, as well, " + alternatives;
   if (!alternatives.empty() && cause.effects.size() > 1) text += ", or in place of one or more of them " + alternatives;
@@ -217,8 +218,7 @@ std::string describe_verdict(const Findings& findings) {
 
 namespace {
 
-/// " It acts with a probability of 98 %, alone with 90 %; else most likely with rim_heat (3 %)."; empty where nothing
-/// is likely to act beside it.
+/// " If something acts beside it, it is most likely rim heat (3 %)."; empty where nothing is likely to.
 std::string describe_alone(const Cause& cause) {
   constexpr std::size_t kMost = 3;
   if (!cause.alone.has_value() || cause.partners.empty()) return {};
@@ -231,8 +231,7 @@ std::string describe_alone(const Cause& cause) {
     return fmt::format(" One of these and nothing else acts with a probability of {}; else most likely with {}.",
                        show_probability(cause.complete.value_or(*cause.alone)), join(partners));
   }
-  return fmt::format(" It acts with a probability of {}, alone with {}; else most likely with {}.",
-                     show_probability(*cause.acts), show_probability(*cause.alone), join(partners));
+  return fmt::format(" If something acts beside it, it is most likely {}.", join(partners));
 }
 
 }  // namespace
@@ -288,20 +287,20 @@ std::vector<Tile> make_gap_tiles(const Findings& findings) {
   const char* where = name_judge(findings);
   const auto show = [](double floors) { return fmt::format("{:.2f}", floors); };
   if (findings.verdict != Verdict::kExplained || findings.causes.empty()) {
-    return {{"Residual",
+    return {{"Gap",
              show(judged.before),
              "noise floors",
-             fmt::format("recalibrated, {}", where),
+             fmt::format("measured less simulated, over its noise; {}", where),
              "",
              {"/gap/recalibrated/before"}}};
   }
-  return {{"Residual before",
+  return {{"Gap before",
            show(judged.before),
            "noise floors",
-           fmt::format("recalibrated, {}", where),
+           fmt::format("measured less simulated, over its noise; {}", where),
            "",
            {"/gap/recalibrated/before"}},
-          {"Residual with the cause",
+          {"Gap with the cause",
            show(judged.after),
            "noise floors",
            "likewise; 0: nothing is left",
@@ -316,7 +315,7 @@ Block make_gap_bars(const Findings& findings) {
   if (findings.verdict != Verdict::kNoGap && !findings.causes.empty()) {
     series.push_back({{"name", "recalibrated, with the cause"}, {"values", {rounded(gap.recalibrated.after)}}});
   }
-  return make_bars({"Residual without noise", "noise floors"}, {name_judge(findings)}, series,
+  return make_bars({"Gap: measured less simulated, without noise", "noise floors"}, {name_judge(findings)}, series,
                    "One noise floor is the standard deviation of a mean over ten seconds. Recalibrated: the numbers of "
                    "the files are moved within their uncertainties.");
 }

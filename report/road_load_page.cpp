@@ -123,8 +123,7 @@ Table make_checks(const estimation::RoadLoadChecks& checks) {
 
 Block make_load_tiles(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
   constexpr const char* kSymbols[] = {"A", "B", "C"};
-  constexpr const char* kNotes[] = {"force at standstill; +- is one standard deviation", "rise with speed",
-                                    "rise with the square of speed"};
+  constexpr const char* kNotes[] = {"force at standstill", "rise with speed", "rise with the square of speed"};
   const std::vector<ParameterEstimate> coefficients = estimation::list_coefficients(fit);
   std::vector<Tile> tiles;
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
@@ -142,12 +141,12 @@ Block make_load_tiles(const RoadLoadFitOptions& options, const RoadLoadFit& fit)
   const estimation::ShownForce at_80 = estimation::list_shown_forces(options, fit)[kAt80];
   if (!at_80.is_outside) {
     const std::string place = fmt::format("/forces/{}/force_{}", kAt80, fit.per_mass ? "m_s2" : "N");
-    tiles.push_back({"At 80 km/h",
-                     fmt::format("{:.4g} +- {:.2g}", at_80.force_N, at_80.sd_N),
-                     force_unit(fit),
-                     "at reference conditions",
-                     "",
-                     {place, place + "_sd"}});
+    tiles.insert(tiles.begin(), {"Road load at 80 km/h",
+                                 fmt::format("{:.4g} +- {:.2g}", at_80.force_N, at_80.sd_N),
+                                 force_unit(fit),
+                                 "at reference conditions; +- is one standard deviation, here and beside",
+                                 "",
+                                 {place, place + "_sd"}});
   }
   return make_tiles(tiles);
 }

@@ -195,8 +195,8 @@ Block make_resistance_chart(const RoadLoadProcedure& procedure) {
 }
 
 Block make_procedure_tiles(const RoadLoadProcedure& procedure) {
-  constexpr const char* kNotes[] = {"force at standstill; +- is one standard deviation", "rise with speed",
-                                    "rise with the square of speed"};
+  constexpr const char* kNotes[] = {"force at standstill; +- is one standard deviation, here and beside",
+                                    "rise with speed", "rise with the square of speed"};
   std::vector<Tile> tiles;
   const std::vector<ParameterEstimate> coefficients = list_procedure_coefficients(procedure);
   for (std::size_t i = 0; i < coefficients.size(); ++i) {

@@ -184,21 +184,21 @@ std::vector<std::string> collect_warnings(const estimation::RollingTest& test, c
 /// Rolling resistance at the standard reference condition, and its coefficient.
 std::vector<Tile> make_reference_tiles(const ForceEstimate& force, const estimation::ReferenceCondition& condition,
                                        int freedom) {
-  Tile loss{"Rolling resistance there",
+  Tile loss{"Rolling resistance",
             fmt::format("{:.2f}", force.value_N),
             "N",
-            "",
+            "at the same condition",
             "",
             {"/reference/rolling_resistance/value_N"}};
   if (freedom > 0) {
     loss.value += fmt::format(" +- {:.2f}", estimation::calc_student_reach(freedom) * force.sd_N);
-    loss.note = "+- is the interval of 95 %";
+    loss.note += "; +- is the interval of 95 %";
     loss.from.push_back("/reference/rolling_resistance/half_width_95_N");
   }
   return {{"RRc at the reference condition",
            fmt::format("{:.3f}", 1e3 * force.value_N / condition.load_N),
            "N/kN",
-           describe_reference(condition),
+           fmt::format("at {:.0f} km/h, {}", kKmhPerMs * condition.speed_m_s, describe_reference(condition)),
            "",
            {"/reference/rrc_N_per_kN"}},
           std::move(loss)};
@@ -250,12 +250,17 @@ Page make_j2452_page(const estimation::RollingTest& test, const J2452Fit& fit,
   std::vector<Tile> tiles;
   if (reference.has_value()) {
     tiles = make_reference_tiles(reference->force, reference->condition, fit.statistics.freedom);
-    tiles.push_back({"Mean equivalent rolling force",
-                     fmt::format("{:.2f}", reference->combined.value_N),
-                     "N",
-                     "SMERF: 0.55 of the urban and 0.45 of the highway cycle",
-                     "",
-                     {"/reference/smerf/value_N"}});
+    Tile smerf{"Mean equivalent rolling force",
+               fmt::format("{:.2f}", reference->combined.value_N),
+               "N",
+               "SMERF: 0.55 of the urban and 0.45 of the highway cycle",
+               "",
+               {"/reference/smerf/value_N"}};
+    if (const int freedom = fit.statistics.freedom; freedom > 0) {
+      smerf.value += fmt::format(" +- {:.2f}", estimation::calc_student_reach(freedom) * reference->combined.sd_N);
+      smerf.from.push_back("/reference/smerf/half_width_95_N");
+    }
+    tiles.push_back(std::move(smerf));
   } else {
     tiles.push_back(make_middle_tile(fit));
   }

@@ -42,7 +42,8 @@ std::string list_effects(const scenarios::RunSpec& spec) {
 }
 
 std::string make_subtitle(const scenarios::RunSpec& spec) {
-  std::string text = fmt::format("Tire {} ({}), rig {}", spec.tire.name, spec.tire.designation, spec.rig.name);
+  std::string text =
+      fmt::format("Simulated: tire {} ({}), rig {}", spec.tire.name, spec.tire.designation, spec.rig.name);
   if (spec.vehicle.has_value()) {
     text += fmt::format(", vehicle {} of {:.0f} kg", spec.vehicle->name, spec.vehicle->body.mass_kg);
   }

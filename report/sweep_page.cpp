@@ -52,7 +52,7 @@ std::string name_sweep_line(const Json& point, const std::vector<std::string>& a
     if (!name.empty()) name += ", ";
     const std::string unit = shown_unit(last_part(axis));
     const std::string value = axis_text(point, axis) + (unit.empty() ? "" : " " + unit);
-    name += axis == kTireAxis ? value : name_axis(axis) + " " + value;
+    name += (axis == kTireAxis ? "tire " : name_axis(axis) + " ") + value;
   }
   return name;
 }
@@ -96,6 +96,7 @@ Block make_sweep_curves(const Json& sweep, const std::vector<std::string>& axes,
     const std::string at = axis_text(point, drawn);
     if (has_lines) own["x"].push_back(axis_value(point, drawn));
     own[has_lines ? "y" : "values"].push_back(rounded(result_value(point, key)));
+    if (!has_lines && others.empty()) own["labels"].push_back(fmt::format("{:.4g}", result_value(point, key)));
     if (std::find(categories.begin(), categories.end(), at) == categories.end()) categories.push_back(at);
   }
   const Axis y{name, shown_unit(key)};
@@ -172,17 +173,20 @@ std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::string& key, co
     if (highest == values.size() || values[i] > values[highest]) highest = i;
   }
   if (lowest == values.size()) return {};
-  std::vector<Tile> tiles{{name,
-                           fmt::format("{:.4g} to {:.4g}", values[lowest], values[highest]),
-                           unit_of_key(key).symbol,
-                           "over " + format_count(sweep["points"].size(), "run"),
-                           "",
-                           {}}};
-  if (key.find('.') == std::string::npos) {  // a number of a list has another place in the file
-    for (const std::size_t point : {lowest, highest}) {
-      tiles.back().from.push_back(fmt::format("/points/{}/result/{}", point, key));
-    }
-  }
+  std::vector<Tile> tiles;
+  const auto add_end = [&](const char* which, std::size_t point) {
+    Tile tile{fmt::format("{} {}", which, name),
+              fmt::format("{:.4g}", values[point]),
+              unit_of_key(key).symbol,
+              name_sweep_line(sweep["points"][point], list_sweep_axes(sweep)),
+              "",
+              {}};
+    // A number of a list has another place in the file.
+    if (key.find('.') == std::string::npos) tile.from = {fmt::format("/points/{}/result/{}", point, key)};
+    tiles.push_back(std::move(tile));
+  };
+  add_end("Lowest", lowest);
+  add_end("Highest", highest);
   for (std::size_t i = 0; i < sweep["sensitivities"].size(); ++i) {
     const Json& sensitivity = sweep["sensitivities"][i];
     if (sensitivity["result"] == key) {

@@ -133,10 +133,10 @@ Block make_steady_tiles(const TireFit& fit) {
                       "", from("fall_percent_per_degC")},
                      {"Warm-up time constant", show_uncertain(steady.time_constant_s, 60.0, "{:.1f}"), "min",
                       "at 80 km/h", "", from("time_constant_min")},
-                     {"What is left",
+                     {"Misfit of the model",
                       fmt::format("{:.2f}", std::sqrt(fit.chi2_per_sample)),
                       "",
-                      "in units of the sensors' noise; 1 where the model lacks nothing",
+                      "rms of the residuals over the noise of the sensors; about 1: the model lacks nothing",
                       "",
                       {"/rest_in_noise"}}});
 }

@@ -57,6 +57,8 @@ struct SpeedBin {
 struct Results {
   models::RoadLoad<double> load;
   std::array<double, 3> sd{};
+  double force_at_80_N = 0.0;
+  double force_at_80_sd_N = 0.0;
   std::vector<ForcePoint> forces;
   std::vector<CoastdownTime> coastdowns;
   std::vector<SpeedBin> bins;
@@ -77,10 +79,15 @@ struct Results {
           forces);
     visit(ResultList{"coastdowns", "Coastdowns", "each coastdown"}, coastdowns);
     visit(ResultList{"bins", "Time through each bin of speed", "each 10 km/h that all coastdowns fall through"}, bins);
-    visit(Headline{"A", "{A_N} +- {A_N_sd}", "force at standstill; +- is one standard deviation"});
+    visit(Result{"force_at_80_N", "", ".1f", "A + B v + C v^2 at 80 km/h"}, force_at_80_N);
+    visit(Result{"force_at_80_N_sd", "", ".1f", "its standard deviation"}, force_at_80_sd_N);
+    visit(JointLine{"Force at 80 km/h", "{force_at_80_N} +- {force_at_80_N_sd}"});
+    visit(Headline{"Road load at 80 km/h", "{force_at_80_N} +- {force_at_80_N_sd}",
+                   on_road ? "at reference conditions; +- is one standard deviation, here and beside"
+                           : "rollers and vehicle, as tested; +- is one standard deviation, here and beside"});
+    visit(Headline{"A", "{A_N} +- {A_N_sd}", "force at standstill"});
     visit(Headline{"B", "{B_N_per_km_h} +- {B_N_per_km_h_sd}", "rise with speed"});
     visit(Headline{"C", "{C_N_per_km_h2} +- {C_N_per_km_h2_sd}", "rise with the square of speed"});
-    visit(Headline{"First coastdown lasts", "{coastdowns.first.duration_s}", "from its first to its last speed"});
   }
 };
 
@@ -141,6 +148,9 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     if (is_coastdown(phase.name)) results.coastdowns.push_back({phase.name, phase.end_s - phase.start_s});
   }
   results.bins = make_bins(inputs.data.runs, settings.coastdowns.from_m_s);
+  constexpr double kShown_m_s = 80.0 / 3.6;
+  results.force_at_80_N = fit.force_N(kShown_m_s);
+  results.force_at_80_sd_N = fit.force_sd_N(kShown_m_s);
   results.on_road = is_on_road(spec.rig.kind->traits);
   outcome.warnings.insert(outcome.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   constexpr double kLowest_K = kZeroCelsius_K + 5.0;  // SAE J2263: air temperature during a test

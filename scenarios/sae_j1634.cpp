@@ -90,7 +90,7 @@ struct Results {
     visit(
         Headline{"Consumption", "{economy.last.dc_consumption_Wh_per_km}", "{economy.last.name}, out of the battery"});
     visit(Headline{"Range", "{economy.last.range_km}",
-                   "{economy.last.name}, as tested; on a label {economy.last.label_range_mi}"});
+                   "{economy.last.name}, as tested; {economy.last.label_range_mi} on a US label, adjusted"});
     visit(
         Headline{"First city cycle above later ones", "{first_city_excess_percent}", "battery energy: the cold start"});
     visit(Headline{"Tires' share of the cold start", "{first_city_tire_share_percent}", "of the excess at the hubs"});

@@ -55,8 +55,10 @@ struct Results {
     visit(Result{"rig_alone_N", "Rig alone (simulated)", ".3f",
                  "what the rig alone loses, which only a simulation knows"},
           rig_alone_N);
-    visit(Headline{"Parasitic loss at zero load", "{intercept_N} +- {intercept_sd_N}", "+- is one standard error"});
-    visit(Headline{"Rig alone", "{rig_alone_N}", "which only a simulation knows"});
+    visit(Headline{"Parasitic loss at zero load", "{intercept_N} +- {intercept_sd_N}",
+                   "by the straight line; +- is one standard error"});
+    visit(Headline{"True loss of the rig", "{rig_alone_N}",
+                   "of the simulated rig without a tire; the result should meet it"});
     visit(Headline{"Slope over load", "{slope_N_per_kN}"});
   }
 };

@@ -74,8 +74,11 @@ TEST_CASE("a sweep says its first result's range and its sensitivity", "[fast]")
   const std::vector<report::Block>& blocks = page.sections.front().blocks;
   REQUIRE(blocks.size() == 4);  // tiles, map, two charts: RRc as tested goes with the corrected one
   const Json& tiles = blocks[0]["tiles"];
-  CHECK(tiles[0]["label"] == "RRc at 25 °C, 2 m drum");
-  CHECK(tiles[0]["value"] == "4.7 to 5.3");
+  CHECK(tiles[0]["label"] == "Lowest RRc at 25 °C, 2 m drum");
+  CHECK(tiles[0]["value"] == "4.7");
+  CHECK(tiles[0]["note"] == "pressure 270 kPa, ambient 30 °C");
+  CHECK(tiles[1]["value"] == "5.3");
+  CHECK(tiles[1]["note"] == "pressure 230 kPa, ambient 20 °C");
   std::map<std::string, std::string> by_unit;
   for (const Json& tile : tiles) by_unit[tile["unit"]] = tile["value"];
   CHECK(by_unit["% per 10 kPa"] == "-1.00");  // 100 x 10 x 0.005 / 5
@@ -133,7 +136,7 @@ TEST_CASE("a sweep whose curve bends says the range of its slopes, and no single
   sweep["sensitivities"] = report::list_sensitivities(sweep, {"rrc_25degC_2m_N_per_kN"});
   const report::Page page = report::make_sweep_page(sweep, {}, "");
   const Json& tiles = page.sections.front().blocks[0]["tiles"];
-  REQUIRE(tiles.size() == 2);
-  CHECK(tiles[1]["value"] == "+0.00 to +1.95");  // 100 x 10 x 0.01 / 5.133
-  CHECK(tiles[1]["unit"] == "% per 10 km/h");
+  REQUIRE(tiles.size() == 3);
+  CHECK(tiles[2]["value"] == "+0.00 to +1.95");  // 100 x 10 x 0.01 / 5.133
+  CHECK(tiles[2]["unit"] == "% per 10 km/h");
 }
