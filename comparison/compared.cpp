@@ -76,7 +76,8 @@ std::string describe_difference(const Comparison& comparison, const ComparedValu
     more += "no interval";
   }
   if (!shows_difference(difference) && size != 0.0) {
-    return fmt::format("No difference is shown: {} ({}, which contains 0)", text, more);
+    return fmt::format("No difference in {} is shown: {} less {} is {:+.3g}{} ({}, which contains 0)", what, name,
+                       comparison.names.front(), size, unit, more);
   }
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return fmt::format("{} ({})", text, more);

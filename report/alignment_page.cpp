@@ -163,7 +163,7 @@ Block make_alignment_tiles(const AlignmentResult& result) {
             fmt::format("; until {}", estimation::format_day(result.valid_until_s)),
         result.is_valid ? "good" : "bad",
         {}},
-       {fmt::format("Measured {:.2f} N/kN, aligned", middle.measured_N_per_kN),
+       {fmt::format("Aligned value of {:.2f} N/kN measured", middle.measured_N_per_kN),
         fmt::format("{:.2f} +- {:.2f}", middle.aligned_N_per_kN, middle.expanded_of_one_N_per_kN),
         "N/kN",
         "in the middle of the alignment tires; +- is the interval of 95 % of one measurement",

@@ -51,16 +51,17 @@ Section make_hand_work(const PlannedCampaign& campaign) {
 }  // namespace
 
 Page make_campaign_page(const PlannedCampaign& campaign) {
-  Page page{"plan",
-            fmt::format("Campaign on {} with tire {}", diagnosis::name_machine(campaign.set), campaign.set.tire.name),
-            fmt::format("{:.1f} of {:g} h", campaign.hours, campaign.most_hours)};
+  Page page{
+      "plan",
+      fmt::format("Plan of tests on {} with tire {}", diagnosis::name_machine(campaign.set), campaign.set.tire.name),
+      fmt::format("{:.1f} of {:g} h", campaign.hours, campaign.most_hours)};
   Section what{"What it would show"};
   const std::size_t visible = diagnosis::count_visible(campaign);
   what.blocks.push_back(
       make_tiles({{"Visible effects",
                    fmt::format("{} of {}", visible, campaign.effects.size()),
                    "",
-                   "unmodeled effects that these tests would show at their usual size",
+                   "effects that the tests would show, at their usual size",
                    visible > 0 ? "good" : "doubt",
                    {"/visible"}},
                   {"Time",

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -169,10 +170,79 @@ std::vector<Table> make_drum_coastdown_tables(const CoastSet& set, const DrumCoa
   return tables;
 }
 
+namespace {
+
+/// The level at the reference pressure and the speed that is nearest to the reference speed.
+std::optional<std::pair<std::size_t, std::size_t>> find_reference_level(const CoastSet& set,
+                                                                        const DrumCoastdownFit& fit) {
+  const auto away = [&set](const SpeedPoint& point) { return std::abs(point.speed_m_s - set.reference_speed_m_s); };
+  const auto nearest = std::min_element(fit.points.begin(), fit.points.end(),
+                                        [&](const SpeedPoint& a, const SpeedPoint& b) { return away(a) < away(b); });
+  if (nearest == fit.points.end()) return std::nullopt;
+  const auto& levels = nearest->levels;
+  const auto level = std::find_if(levels.begin(), levels.end(), [&fit](const estimation::PressureLevel& one) {
+    return one.pressure_Pa == fit.reference_pressure_Pa;
+  });
+  if (level == levels.end()) return std::nullopt;
+  return std::pair(static_cast<std::size_t>(nearest - fit.points.begin()),
+                   static_cast<std::size_t>(level - levels.begin()));
+}
+
+std::string show_interval_95(const Interval& interval, double unit, const char* digits) {
+  const auto number = [&](double value) { return fmt::format(fmt::runtime(digits), value / unit); };
+  return fmt::format("95 % interval {} to {}", number(interval.lower), number(interval.upper));
+}
+
+/// Rolling resistance at the reference pressure and speed, or the deceleration where no inertia is known; how it goes
+/// with the pressure.
+std::vector<Tile> make_coast_tiles(const CoastSet& set, const DrumCoastdownFit& fit) {
+  const auto place = find_reference_level(set, fit);
+  if (!place.has_value()) return {};
+  const SpeedPoint& point = fit.points[place->first];
+  const estimation::PressureLevel& level = point.levels[place->second];
+  const std::string at =
+      fmt::format("at {:.0f} km/h and {:.0f} kPa", kKmhPerMs * point.speed_m_s, 1e-3 * level.pressure_Pa);
+  const std::string speed = fmt::format("/speeds/{}", place->first);
+  const std::string pressure = fmt::format("{}/pressures/{}", speed, place->second);
+  std::vector<Tile> tiles;
+  if (level.force_N.has_value()) {
+    tiles.push_back({"Rolling resistance",
+                     fmt::format("{:.2f}", level.force_N->value),
+                     "N",
+                     at + "; " + show_interval_95(*level.force_N, 1.0, "{:.2f}"),
+                     "",
+                     {pressure + "/force_N/value"}});
+  } else {
+    constexpr double kMm_s2 = 1e-3;
+    tiles.push_back({"Deceleration by the tire",
+                     fmt::format("{:.2f}", level.net_m_s2.value / kMm_s2),
+                     "mm/s2",
+                     at + "; " + show_interval_95(level.net_m_s2, kMm_s2, "{:.2f}"),
+                     "",
+                     {}});
+  }
+  if (point.pressure_exponent.has_value()) {
+    tiles.push_back(
+        {"Pressure exponent",
+         fmt::format("{:.3f}", point.pressure_exponent->value),
+         "",
+         fmt::format("rolling resistance goes with pressure to this power, at {:.0f} km/h; {}",
+                     kKmhPerMs * point.speed_m_s, show_interval_95(*point.pressure_exponent, 1.0, "{:.3f}")),
+         "",
+         {speed + "/pressure_exponent/value"}});
+  }
+  return tiles;
+}
+
+}  // namespace
+
 Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) {
   Page page{"fit drum-coastdown", fmt::format("Rolling resistance from coast-downs: {}", set.name),
             format_count(set.runs.size(), "run")};
-  page.add(make_section("Result", make_drum_coastdown_tables(set, fit), fit.warnings));
+  Section result = make_section("Result", make_drum_coastdown_tables(set, fit), fit.warnings);
+  const std::vector<Tile> tiles = make_coast_tiles(set, fit);
+  if (!tiles.empty()) result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
+  page.add(std::move(result));
   page.add({"Over speed", "", {make_net_chart(set, fit)}});
   const bool has_exponent = std::any_of(fit.points.begin(), fit.points.end(),
                                         [](const SpeedPoint& point) { return point.pressure_exponent.has_value(); });

@@ -59,8 +59,18 @@ Block make_pair_tiles(const PairFindings& findings) {
     tiles.push_back({"Do they differ?", "no", "", "nothing beyond the noise", "good", {}});
     tiles.push_back({"How sure", probability("agree"), "", "probability that they agree", "", {"/probability/agree"}});
   } else if (findings.verdict == PairVerdict::kUnexplained || findings.causes.empty()) {
-    tiles.push_back({"They differ in", "something unknown", "", "no effect that rollrig knows follows it", "bad", {}});
-    tiles.push_back({"How sure", probability("unknown"), "", "probability of it", "", {"/probability/unknown"}});
+    tiles.push_back({"They differ in",
+                     "an unknown effect",
+                     "",
+                     "their readings differ, and no effect that was compared explains it",
+                     "bad",
+                     {}});
+    tiles.push_back({"How sure",
+                     probability("unknown"),
+                     "",
+                     "probability that no compared effect explains it",
+                     "",
+                     {"/probability/unknown"}});
   } else {
     const MachineDifference& cause = findings.causes.front();
     std::vector<std::string> names;
@@ -78,17 +88,20 @@ Block make_pair_tiles(const PairFindings& findings) {
   const auto show = [](const RrcEstimate& at) {
     return fmt::format("{:+.3f} +- {:.3f}", at.value_N_per_kN, 0.5 * (at.high_95_N_per_kN - at.low_95_N_per_kN));
   };
-  tiles.push_back({"RRc on A less that on B",
-                   show(findings.difference),
-                   "N/kN",
-                   "+- is the interval of 95 %",
-                   "",
-                   {"/rrc_difference/value_N_per_kN", "/rrc_difference/half_width_95_N_per_kN"}});
-  if (findings.remaining.has_value()) {
-    tiles.push_back({"Of it with the cause",
+  const bool shows_none = findings.difference.low_95_N_per_kN < 0.0 && findings.difference.high_95_N_per_kN > 0.0;
+  tiles.push_back(
+      {"RRc on A minus RRc on B",
+       show(findings.difference),
+       "N/kN",
+       shows_none ? "no difference in RRc is shown; +- is the interval of 95 %" : "+- is the interval of 95 %",
+       "",
+       {"/rrc_difference/value_N_per_kN", "/rrc_difference/half_width_95_N_per_kN"}});
+  const bool is_explained = findings.verdict == PairVerdict::kExplained && !findings.causes.empty();
+  if (findings.remaining.has_value() && is_explained) {
+    tiles.push_back({"Left of it without the cause",
                      show(*findings.remaining),
                      "N/kN",
-                     "what the cause does not take",
+                     "RRc on A minus RRc on B, the cause taken out",
                      "",
                      {"/rrc_remaining/value_N_per_kN", "/rrc_remaining/half_width_95_N_per_kN"}});
   }

@@ -12,18 +12,20 @@
 
 namespace rollrig::serve {
 
-Connection::Connection(socket_t socket, const ConnectionLimits& limits)
-    : socket_(socket), limits_(limits), deadline_(start_ + limits.head) {}
+Connection::Connection(socket_t socket, const ConnectionLimits& limits, const std::atomic<bool>& is_ending)
+    : socket_(socket), limits_(limits), is_ending_(is_ending), deadline_(start_ + limits.head) {}
 
 bool Connection::wait_for(short event) const {
-  while (true) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
-    if (left <= 0) return false;
+  constexpr std::chrono::milliseconds kBetweenLooks{100};
+  while (!is_ending_) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now());
+    if (left.count() <= 0) return false;
     pollfd waiting{socket_, event, 0};
-    const int found = ::poll(&waiting, 1, static_cast<int>(left));
+    const int found = ::poll(&waiting, 1, static_cast<int>(std::min(left, kBetweenLooks).count()));
     if (found > 0) return true;
-    if (found == 0 || errno != EINTR) return false;
+    if (found < 0 && errno != EINTR) return false;
   }
+  return false;
 }
 
 bool Connection::is_readable() const { return begin_ < end_ || wait_for(POLLIN); }

@@ -2,6 +2,7 @@
 /// One connection of a client, within limits of time and size that cpp-httplib does not have.
 
 #include <array>
+#include <atomic>
 #include <chrono>
 
 #include "serve/http.h"
@@ -21,7 +22,8 @@ struct ConnectionLimits {
 /// A socket as cpp-httplib reads and writes it. A read or write beyond a limit fails, and the request with it.
 class Connection : public httplib::Stream {
  public:
-  Connection(socket_t socket, const ConnectionLimits& limits);
+  /// Reads and writes fail once `is_ending` is true.
+  Connection(socket_t socket, const ConnectionLimits& limits, const std::atomic<bool>& is_ending);
 
   bool is_readable() const override;
   bool is_writable() const override;
@@ -45,6 +47,7 @@ class Connection : public httplib::Stream {
 
   socket_t socket_;
   ConnectionLimits limits_;
+  const std::atomic<bool>& is_ending_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point deadline_;
   std::array<char, 16384> buffer_{};

@@ -62,8 +62,13 @@ void HttpServer::lengthen_queue() {
   ::listen(svr_sock_, kMostQueued);
 }
 
+void HttpServer::end() {
+  is_ending_ = true;
+  stop();
+}
+
 bool HttpServer::process_and_close_socket(socket_t socket) {
-  Connection connection(socket, limits_);
+  Connection connection(socket, limits_, is_ending_);
   bool is_closed = false;
   const bool is_answered = process_request(connection, true, is_closed, nullptr);
   connection.close();

@@ -1,6 +1,7 @@
 #pragma once
 /// cpp-httplib with the limits that it lacks: on the time and size of a request, and on what waits.
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -40,14 +41,18 @@ class HttpServer : public httplib::Server {
  public:
   explicit HttpServer(const ConnectionLimits& limits);
 
-  /// To be called once it is bound: cpp-httplib lets five connections wait for the operating system, and and further
+  /// To be called once it is bound: cpp-httplib lets five connections wait for the operating system, and further
   /// clients, even those of one browser, would be refused.
   void lengthen_queue();
+
+  /// Takes no further connection, and closes those that are not answered yet. listen_after_bind() then returns.
+  void end();
 
  private:
   bool process_and_close_socket(socket_t socket) override;
 
   ConnectionLimits limits_;
+  std::atomic<bool> is_ending_{false};
 };
 
 }  // namespace rollrig::serve

@@ -236,7 +236,7 @@ Server::Server(const ServerOptions& options) : data_(std::make_unique<Data>(opti
 
 Server::~Server() {
   while (!data_->http.is_running() && !data_->has_ended) std::this_thread::yield();  // else stop() would not be heard
-  data_->http.stop();
+  data_->http.end();
   data_->thread.join();
 }
 

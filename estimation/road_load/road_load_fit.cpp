@@ -184,7 +184,8 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
   }
   if (!fit.scatter.run_force_N.has_value() || !fit.scatter.run_speed_N_s_per_m.has_value()) {
     fit.warnings.push_back(
-        "too few runs to tell how they differ from run to run: the standard deviations hold noise along the runs only");
+        "too few runs to tell how they differ from run to run: the standard deviations are those of the noise along a "
+        "run, and too small");
   }
   if (fit.scatter.session_force_N.value_or(0.0) > 0.0) {
     const double middle = 0.5 * (fit.high_m_s + fit.low_m_s);

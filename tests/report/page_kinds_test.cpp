@@ -185,7 +185,7 @@ void prepare(const TemporaryFolder& folder, const std::string& command) {
 }
 
 /// A set of two warm-ups with an effect in it.
-void write_set(const TemporaryFolder& folder, const std::string& name, const std::string& more) {
+void write_effect_set(const TemporaryFolder& folder, const std::string& name, const std::string& more) {
   prepare(folder,
           "run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80,120]' --set warm_up_min=10 --set "
           "settle_min=0 --write-set " +
@@ -233,7 +233,7 @@ TEST_CASE("every kind of page of a comparison and of a fit", "[slow]") {
                                 "run_{0} --write-set set_{0}",
                                 tire));
   }
-  write_set(folder, "set", "");
+  write_effect_set(folder, "set", "");
   check_kinds(
       folder,
       {{"results", "compare run_a40 run_a50", "--charts 3"},  // bars, waterfall, channels
@@ -250,12 +250,12 @@ TEST_CASE("every kind of page of a comparison and of a fit", "[slow]") {
 
 TEST_CASE("every kind of page of a diagnosis and of a plan", "[slow]") {
   const TemporaryFolder folder;
-  write_set(folder, "set", "--set effects.bearing_warmup.fall_per_K=0.03");
+  write_effect_set(folder, "set", "--set effects.bearing_warmup.fall_per_K=0.03");
   std::string rig = read_file(std::string(ROLLRIG_SOURCE_DIR) + "/assets/rigs/drum_2m.toml");
   const std::size_t name = rig.find("name");
   rig.replace(name, rig.find('\n', name) - name, "name = \"drum_B\"");
   write_file(folder.file("drum_B.toml"), rig);
-  write_set(folder, "set_B", "--rig ./drum_B.toml --seed 5 --set effects.torque_gain.gain_percent=3");
+  write_effect_set(folder, "set_B", "--rig ./drum_B.toml --seed 5 --set effects.torque_gain.gain_percent=3");
   fs::create_directory(folder.file("sets"));
   for (const char* copy : {"sets/one", "sets/two"}) fs::copy(folder.file("set"), folder.file(copy));
   const std::string only = " --only bearing_warmup,torque_gain";

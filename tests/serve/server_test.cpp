@@ -16,6 +16,7 @@
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <set>
 #include <thread>
 
@@ -293,6 +294,19 @@ TEST_CASE("clients that say nothing do not keep others out", "[slow]") {
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   CHECK(bench.is_alive());
   for (std::thread& one : silent) one.join();  // the server lets them go
+}
+
+TEST_CASE("the server ends at once, though clients say nothing", "[fast]") {
+  std::vector<std::thread> silent;
+  auto bench = std::make_unique<Bench>(std::chrono::minutes(1));
+  for (int i = 0; i < 20; ++i) {  // more than there are threads
+    silent.emplace_back([port = bench->server.port()] { send_raw(port, "GET / HTTP/1.1\r\nA: "); });
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const auto begin = std::chrono::steady_clock::now();
+  bench.reset();
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(10));  // a minute, would it wait for them
+  for (std::thread& one : silent) one.join();
 }
 
 TEST_CASE("a dropped set is validated and diagnosed with progress, and its page kept", "[slow]") {
