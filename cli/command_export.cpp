@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "rollrig/export.h"
+#include "rollrig/fmu.h"
 #include "rollrig/vecto.h"
 #include "sim/core/columns.h"
 
@@ -58,6 +59,9 @@ std::vector<std::pair<std::string, std::string>> make_exports(const ExportOption
 }
 
 int export_command(const ExportOptions& options) {
+  if (options.source.empty()) {
+    throw usage_error("no source is given", "", "", "a folder, a set, a recording, a fit or a tire; or export fmu");
+  }
   if (!options.vecto.empty()) return export_tire(options);
   if (options.mat.empty() && options.hdf5.empty() && options.coefficients.are_empty()) {
     throw usage_error("no file to write is given", "", "",
@@ -80,6 +84,36 @@ int export_command(const ExportOptions& options) {
   return kDone;
 }
 
+struct FmuOptions {
+  FmuInput input;
+  std::string out;
+  bool quiet = false;
+};
+
+int export_fmu_command(const FmuOptions& options) {
+  const OutputFiles files({{"--out", options.out}});
+  const std::string fmu = make_fmu(options.input);
+  files.require_no_input();
+  std::vector<StagedOutput> staged;
+  staged.emplace_back(options.out, fmu);
+  commit_all(staged);
+  if (!options.quiet && options.out != "-") std::cout << fmt::format("written to {}\n", options.out);
+  return kDone;
+}
+
+void add_export_fmu(CLI::App& parent, Action& action) {
+  const auto [command, options] = add_command<FmuOptions>(
+      parent, action, "fmu", "Write a warm tire on its wheel for other simulators (FMI)", &export_fmu_command);
+  command->add_option("--tire", options->input.tire, "Tire under assets/tires, or a path")->required();
+  command->add_option("--rig", options->input.rig, "What it rolls on: rig under assets/rigs, or a path")
+      ->capture_default_str();
+  command->add_option("--effects", options->input.effects, "Effects that are on; their sizes are parameters")
+      ->delimiter(',');
+  command->add_option("--fmi", options->input.fmi_version, "Version of FMI, 2 or 3")->capture_default_str();
+  add_output_option(*command, "--out", options->out, "File for the FMU, - for standard output")->required();
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+}
+
 }  // namespace
 
 void add_export_command(CLI::App& app, Action& action) {
@@ -88,11 +122,15 @@ void add_export_command(CLI::App& app, Action& action) {
       "Write a result, a measurement set or a recording for MATLAB (.mat) or as HDF5, a fit's coefficients, or a tire "
       "for VECTO",
       &export_command);
-  command
-      ->add_option("source", options->source,
-                   "Folder that run --out or --write-set wrote, a measurement set, a recording.csv, or fit.json of fit "
-                   "j2452; of --vecto a tire: name under assets/tires, or a path")
-      ->required();
+  add_export_fmu(*command, action);
+  const Action write_source = [options = options] { return export_command(*options); };
+  command->callback([command = command, write_source, &action] {
+    if (command->get_subcommands().empty()) action = write_source;
+  });
+  command->add_option(
+      "source", options->source,
+      "Folder that run --out or --write-set wrote, a measurement set, a recording.csv, or fit.json of fit "
+      "j2452; of --vecto a tire: name under assets/tires, or a path");
   add_output_option(*command, "--mat", options->mat, "File for MATLAB, version 5; - for standard output");
   add_output_option(*command, "--hdf5", options->hdf5, "File in HDF5; - for standard output");
   options->coefficients.add_to(*command);

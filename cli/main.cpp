@@ -82,6 +82,7 @@ void add_examples(const CLI::App& app) {
        "  rollrig label --tire c3_315_80r22_5\n"},
       {"export",
        "  rollrig export warm --mat warm.mat\n"
+       "  rollrig export fmu --tire a50 --out tire.fmu\n"
        "  rollrig export c3_315_80r22_5 --vecto tire.xml\n"}};
   for (const auto& [name, examples] : kExamples) app.get_subcommand(name)->footer("\nExamples:\n" + examples);
 }

@@ -15,6 +15,7 @@ find_package(LibXml2 2.9 REQUIRED)
 find_package(SQLiteCpp 3.2 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(edlib REQUIRED IMPORTED_TARGET edlib-1)
+pkg_check_modules(minizip REQUIRED IMPORTED_TARGET minizip)
 pkg_check_modules(libmd REQUIRED IMPORTED_TARGET libmd)
 pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib>=0.11)
 # UDUNITS: by hand, since its pkg-config file is not in every version of the package where it is looked for.

@@ -1,15 +1,12 @@
 #include "exports/vecto_tire.h"
 
 #include <fmt/format.h>
-#include <libxml/parser.h>
-#include <libxml/tree.h>
-#include <libxml/xmlschemas.h>
 
 #include <cmath>
 #include <cstdarg>
-#include <memory>
 #include <utility>
 
+#include "exports/xml.h"
 #include "sim/core/error.h"
 
 namespace rollrig::exports {
@@ -96,18 +93,6 @@ constexpr const char* kDataSchema = R"(<?xml version="1.0"?>
   </xs:element>
 </xs:schema>
 )";
-
-struct XmlFree {
-  void operator()(xmlDoc* doc) const { xmlFreeDoc(doc); }
-  void operator()(xmlSchema* schema) const { xmlSchemaFree(schema); }
-  void operator()(xmlSchemaParserCtxt* context) const { xmlSchemaFreeParserCtxt(context); }
-  void operator()(xmlSchemaValidCtxt* context) const { xmlSchemaFreeValidCtxt(context); }
-};
-template <class T>
-using XmlPointer = std::unique_ptr<T, XmlFree>;
-
-const xmlChar* to_xml(const std::string& text) { return reinterpret_cast<const xmlChar*>(text.c_str()); }
-const xmlChar* to_xml(const char* text) { return reinterpret_cast<const xmlChar*>(text); }
 
 /// What libxml2 says of an error, a line each.
 void collect_xml_error(void* list, xmlErrorPtr error) {
@@ -255,11 +240,7 @@ std::string make_vecto_xml(const VectoTire& tire) {
   add("Dimension", tire.dimension);
   add("RRCDeclared", fmt::format("{:.4f}", tire.rrc));
   add("FzISO", fmt::format("{}", tire.load_N));
-  xmlChar* bytes = nullptr;
-  int size = 0;
-  xmlDocDumpFormatMemoryEnc(doc.get(), &bytes, &size, "UTF-8", 1);
-  const std::string xml(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
-  xmlFree(bytes);
+  const std::string xml = write_xml(*doc);
   refuse_problems(list_vecto_problems(xml), "");
   return xml;
 }

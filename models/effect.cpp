@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "sim/core/error.h"
-
 namespace rollrig::models {
 
 double Prior::center() const { return scale == Scale::kLog ? std::sqrt(low * high) : 0.5 * (low + high); }
@@ -23,38 +21,6 @@ bool acts_in(const EffectInfo& info, const MachineTraits& machine, const TireMod
 }
 
 std::vector<std::string> effect_ids() { return list_ids(all_effects()); }
-
-const Effect& find_effect(const std::string& id) {
-  for (const Effect* effect : all_effects()) {
-    if (effect->info.id == id) return *effect;
-  }
-  throw InputError(unknown_name("effect", id, effect_ids()));
-}
-
-std::vector<ActiveEffect> read_effects(const ConfigTable& effects) {
-  for (const auto& [id, value] : effects.entries) {
-    const std::vector<std::string> ids = effect_ids();
-    InputProblem unknown = unknown_name("effect", id, ids);
-    unknown.file = value.origin.file;
-    unknown.line = value.origin.line;
-    unknown.key = fmt::format("[effects.{}]", id);
-    if (std::find(ids.begin(), ids.end(), id) == ids.end()) throw InputError(unknown);
-  }
-  std::vector<ActiveEffect> active;
-  TableReader reader(effects, "[effects]");
-  for (const Effect* effect : all_effects()) {
-    const ConfigTable* table = reader.table(effect->info.id);
-    if (table == nullptr) continue;
-    TableReader own(*table, fmt::format("[effects.{}]", effect->info.id));
-    ActiveEffect on{effect, {}};
-    for (const EffectParameter& parameter : effect->info.parameters) {
-      on.parameters.push_back(own.number({parameter.key, parameter.range, parameter.doc, parameter.prior.center()}));
-    }
-    own.finish();
-    active.push_back(std::move(on));
-  }
-  return active;
-}
 
 std::string describe_effects(const std::vector<ActiveEffect>& effects) {
   std::vector<std::string> described;

@@ -37,8 +37,13 @@ void RecordedRoller<S>::read_inputs(double time_s, std::size_t, models::InputPor
 
 template <class S>
 void RecordedRoller<S>::find_force() {
+  put_force(S(-this->wheel().now.acting.longitudinal_force_N));
+}
+
+template <class S>
+void RecordedRoller<S>::put_force(const S& contact_N) {
   const models::Instant<S>& now = this->wheel().now;
-  this->put_contact_force(this->wheel(), S(-now.acting.longitudinal_force_N));
+  this->put_contact_force(this->wheel(), contact_N);
   const S slip_N = now.motion.longitudinal_force_N * this->wheel().slip;
   this->force_N_ = models::calc_loss_force_N(now, slip_N, now.motion.acceleration_m_s2);
 }

@@ -23,8 +23,12 @@ class RecordedRoller : public RecordedWheel<S> {
  public:
   RecordedRoller(models::Corner<S>& corner, RigStart<S> start, bool surface_recorded, Detail detail);
 
- private:
+ protected:
+  /// Force of the surface on the wheel, its slip, and what is measured.
+  void put_force(const S& contact_N);
   void read_inputs(double time_s, std::size_t wheel, models::InputPort<S>& inputs) const override;
+
+ private:
   void find_force() override;
   RecordedPowers<S> find_powers() const override;
 };

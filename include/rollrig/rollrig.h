@@ -9,6 +9,7 @@
 #include "error.h"
 #include "export.h"
 #include "fit.h"
+#include "fmu.h"
 #include "item_campaign.h"
 #include "label.h"
 #include "loop.h"

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "models/tire/tire_model.h"
-#include "sim/core/error.h"
 
 namespace rollrig::models {
 
@@ -17,13 +16,6 @@ const std::vector<const TireModel*>& all_tire_models() {
 #undef ROLLRIG_TIRE_MODEL
   };
   return models;
-}
-
-const TireModel& find_tire_model(const std::string& id) {
-  for (const TireModel* model : all_tire_models()) {
-    if (model->info.id == id) return *model;
-  }
-  throw InputError(unknown_name("tire model", id, list_ids(all_tire_models())));
 }
 
 const TireModel& default_tire_model() { return *all_tire_models().front(); }

@@ -27,20 +27,6 @@ std::string allowed_number(const Field& field) {
 
 }  // namespace
 
-bool Range::contains(double value) const {
-  if (!std::isfinite(value)) return false;
-  const bool above = lower_open ? value > lower : value >= lower;
-  const bool below = upper_open ? value < upper : value <= upper;
-  return above && below;
-}
-
-std::string Range::to_string() const {
-  std::vector<std::string> parts;
-  if (std::isfinite(lower)) parts.push_back(fmt::format("{} {}", lower_open ? ">" : ">=", lower));
-  if (std::isfinite(upper)) parts.push_back(fmt::format("{} {}", upper_open ? "<" : "<=", upper));
-  return boost::algorithm::join(parts, " and ");
-}
-
 TableReader::TableReader(const ConfigTable& table, std::string name) : table_(table), name_(std::move(name)) {}
 
 std::string TableReader::full_key(const std::string& key) const { return name_.empty() ? key : name_ + " " + key; }

@@ -28,6 +28,7 @@ const std::vector<std::string> kOrder{"include/rollrig",
                                       "models",
                                       "rigs",
                                       "rigs/multibody",
+                                      "fmu",
                                       "measurements",
                                       "estimation",
                                       "scenarios",
@@ -74,7 +75,7 @@ const std::map<std::string, std::set<std::string>> kPackages{
     {"ceres/",
      {"sim/core/scalar.h", "estimation/rolling_law/j2452_fit.cpp", "estimation/tire_fit/fit_solution.cpp",
       "diagnosis/comparison/refit.cpp"}},
-    {"edlib.h", {"sim/core/error.cpp"}},
+    {"edlib.h", {"sim/core/nearest_name.cpp"}},
     {"udunits2.h", {"sim/core/unit_names.cpp"}},
     {"SQLiteCpp/|sqlite3.h", {"campaigns/store.cpp"}},
     {"tbb/", {"sim/core/parallel.cpp"}},
@@ -82,7 +83,8 @@ const std::map<std::string, std::set<std::string>> kPackages{
     {"boost/numeric/odeint", {"validation/generator/recorder.cpp"}},
     {"mpi.h", {"campaigns/mpi/hand_out.cpp", "campaigns/mpi/ranks.cpp"}},
     {"hdf5.h", {"tables/hdf5_handle.h"}},
-    {"libxml/", {"exports/vecto_tire.cpp"}},
+    {"libxml/", {"exports/xml.h"}},
+    {"minizip/", {"exports/zip_archive.cpp"}},
     {"zlib.h", {"tables/mdf4_blocks.cpp"}},
     {"matio.h", {"exports/mat_file.cpp", "tables/mat_table.cpp"}},
 };
@@ -101,9 +103,10 @@ std::size_t rank_of(const std::string& folder) {
   return static_cast<std::size_t>(std::find(kOrder.begin(), kOrder.end(), folder) - kOrder.begin());
 }
 
-const std::vector<const char*> kTops{"include",    "sim",       "tables",  "models",    "rigs",       "measurements",
-                                     "estimation", "scenarios", "exports", "diagnosis", "comparison", "validation",
-                                     "report",     "campaigns", "api",     "serve",     "cli",        "examples"};
+const std::vector<const char*> kTops{"include",   "sim",          "tables",     "models",    "rigs",
+                                     "fmu",       "measurements", "estimation", "scenarios", "exports",
+                                     "diagnosis", "comparison",   "validation", "report",    "campaigns",
+                                     "api",       "serve",        "cli",        "examples"};
 
 template <class Visit>
 void visit_includes(Visit&& visit) {

@@ -37,7 +37,7 @@ expect_field "$library" Depends "rollrig (= $version-1)"
 
 # Shared libraries of Debian that the program cannot run without, and nothing that only the build needs.
 depends=$(dpkg-deb --field "$program" Depends)
-for name in libc6 libstdc++6 libsimbody libfmt libspdlog libtbb libhdf5 libmatio libedlib libmd0 libsqlite3 libxml2; do
+for name in libc6 libstdc++6 libsimbody libfmt libspdlog libtbb libhdf5 libmatio libedlib libmd0 libminizip1 libsqlite3 libxml2; do
   case ", $depends" in
     *", $name"*) ;;
     *) fail "rollrig does not depend on $name: $depends" ;;

@@ -1,0 +1,324 @@
+/// Version 2.0 of the interface.
+#include "fmu/fmi2.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "fmu/instance.h"
+#include "fmu/model_block.h"
+
+namespace rollrig::fmu {
+namespace {
+
+struct Fmi2Instance : Instance {
+  using Instance::Instance;
+  fmi2CallbackFunctions callbacks{};
+  std::string name;
+};
+
+/// Tells the importer. Its logger takes a format of printf, in which "#" stands before a variable as well; some take it
+/// for the text itself, so that it has no arguments.
+void log_fmi2(const fmi2CallbackFunctions* callbacks, const char* name, const std::string& message) {
+  if (callbacks == nullptr || callbacks->logger == nullptr) return;
+  std::string format;
+  for (const char c : message) format.append(c == '%' || c == '#' ? 2 : 1, c);
+  callbacks->logger(callbacks->componentEnvironment, name == nullptr ? "" : name, fmi2Error, "logStatusError",
+                    format.c_str());
+}
+
+template <class Body>
+fmi2Status run_fmi2(fmi2Component component, const char* function, unsigned stages, Body&& body) noexcept {
+  if (component == nullptr) return fmi2Error;
+  auto& instance = *static_cast<Fmi2Instance*>(component);
+  return instance.run(function, stages, [&] { body(instance); }) ? fmi2OK : fmi2Error;
+}
+
+/// The wheel has numbers alone: no variable of another type can be asked for.
+fmi2Status refuse_type(fmi2Component component, const char* function, std::size_t count) {
+  return run_fmi2(component, function, kAnyStage, [&](Instance&) {
+    if (count > 0) refuse("there is no variable of this type");
+  });
+}
+
+void require_first_order(const fmi2Integer* order, std::size_t count) {
+  require_given(order, count);
+  if (std::all_of(order, order + count, [](fmi2Integer n) { return n == 1; })) return;
+  refuse("only first derivatives of inputs are known");
+}
+
+SavedState& state_of(fmi2FMUstate state) {
+  require_given(state);
+  return *static_cast<SavedState*>(state);
+}
+
+/// A step is done when the call returns, so that there is nothing to ask for but the time.
+template <class Value>
+fmi2Status tell_status(fmi2Component component, const char* function, Value* value, bool is_known, const Value& known) {
+  const fmi2Status status = run_fmi2(component, function, kAnyStage, [&](Instance&) {
+    require_given(value);
+    if (is_known) *value = known;
+  });
+  return status == fmi2OK && !is_known ? fmi2Discard : status;
+}
+
+}  // namespace
+}  // namespace rollrig::fmu
+
+using namespace rollrig::fmu;  // NOLINT: C functions of the standard follow
+
+const char* fmi2GetTypesPlatform() { return "default"; }
+const char* fmi2GetVersion() { return "2.0"; }
+
+fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String,
+                              const fmi2CallbackFunctions* callbacks, fmi2Boolean, fmi2Boolean) {
+  try {
+    const auto fail = [&](const char* why) {
+      log_fmi2(callbacks, name, std::string("fmi2Instantiate: ") + why);
+      return nullptr;
+    };
+    const BlockContent& content = read_own_block();
+    if (name == nullptr || *name == '\0') return fail("the instance has no name");
+    if (guid == nullptr || content.token != guid) return fail("the GUID is not that of this FMU");
+    if (type != fmi2ModelExchange && type != fmi2CoSimulation) return fail("the type is unknown");
+    auto instance = std::make_unique<Fmi2Instance>(content.model, type == fmi2CoSimulation, Instance::Log());
+    instance->name = name;
+    if (callbacks != nullptr) instance->callbacks = *callbacks;
+    Fmi2Instance* self = instance.get();
+    self->log = [self](const std::string& message) { log_fmi2(&self->callbacks, self->name.c_str(), message); };
+    return instance.release();
+  } catch (const std::exception& error) {
+    log_fmi2(callbacks, name, std::string("fmi2Instantiate: ") + error.what());
+  } catch (...) {
+  }
+  return nullptr;
+}
+
+void fmi2FreeInstance(fmi2Component component) { delete static_cast<Fmi2Instance*>(component); }
+
+fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean, size_t count, const fmi2String categories[]) {
+  return run_fmi2(component, "fmi2SetDebugLogging", kAnyStage, [&](Instance&) { require_given(categories, count); });
+}
+
+fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean, fmi2Real, fmi2Real start_s, fmi2Boolean has_stop,
+                               fmi2Real stop_s) {
+  return run_fmi2(component, "fmi2SetupExperiment", kInstantiated, [&](Instance& instance) {
+    instance.set_up(start_s, has_stop != fmi2False ? stop_s : std::numeric_limits<double>::infinity());
+  });
+}
+
+fmi2Status fmi2EnterInitializationMode(fmi2Component component) {
+  return run_fmi2(component, "fmi2EnterInitializationMode", kInstantiated,
+                  [](Instance& instance) { instance.enter_initialization(); });
+}
+
+fmi2Status fmi2ExitInitializationMode(fmi2Component component) {
+  return run_fmi2(component, "fmi2ExitInitializationMode", kInitialization,
+                  [](Instance& instance) { instance.exit_initialization(); });
+}
+
+fmi2Status fmi2Terminate(fmi2Component component) {
+  return run_fmi2(component, "fmi2Terminate", kAfterStart, [](Instance& instance) { instance.stage = kTerminated; });
+}
+
+fmi2Status fmi2Reset(fmi2Component component) {
+  return run_fmi2(component, "fmi2Reset", kAnyStage, [](Instance& instance) { instance.reset(); });
+}
+
+fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference references[], size_t count,
+                       fmi2Real values[]) {
+  return run_fmi2(component, "fmi2GetReal", kAnyStage,
+                  [&](Instance& instance) { instance.get(references, count, values); });
+}
+
+fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference references[], size_t count,
+                       const fmi2Real values[]) {
+  return run_fmi2(component, "fmi2SetReal", kNotTerminated,
+                  [&](Instance& instance) { instance.set(references, count, values); });
+}
+
+fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference[], size_t count, fmi2Integer[]) {
+  return refuse_type(component, "fmi2GetInteger", count);
+}
+fmi2Status fmi2GetBoolean(fmi2Component component, const fmi2ValueReference[], size_t count, fmi2Boolean[]) {
+  return refuse_type(component, "fmi2GetBoolean", count);
+}
+fmi2Status fmi2GetString(fmi2Component component, const fmi2ValueReference[], size_t count, fmi2String[]) {
+  return refuse_type(component, "fmi2GetString", count);
+}
+fmi2Status fmi2SetInteger(fmi2Component component, const fmi2ValueReference[], size_t count, const fmi2Integer[]) {
+  return refuse_type(component, "fmi2SetInteger", count);
+}
+fmi2Status fmi2SetBoolean(fmi2Component component, const fmi2ValueReference[], size_t count, const fmi2Boolean[]) {
+  return refuse_type(component, "fmi2SetBoolean", count);
+}
+fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference[], size_t count, const fmi2String[]) {
+  return refuse_type(component, "fmi2SetString", count);
+}
+
+fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state) {
+  return run_fmi2(component, "fmi2GetFMUstate", kAnyStage, [&](Instance& instance) {
+    require_given(state);
+    if (*state == nullptr) *state = new SavedState;
+    *static_cast<SavedState*>(*state) = instance.save();
+  });
+}
+
+fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state) {
+  return run_fmi2(component, "fmi2SetFMUstate", kAnyStage, [&](Instance& instance) { instance.load(state_of(state)); });
+}
+
+fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate* state) {
+  return run_fmi2(component, "fmi2FreeFMUstate", kAnyStage, [&](Instance&) {
+    if (state == nullptr) return;
+    delete static_cast<SavedState*>(*state);
+    *state = nullptr;
+  });
+}
+
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi2FMUstate state, size_t* size) {
+  return run_fmi2(component, "fmi2SerializedFMUstateSize", kAnyStage, [&](Instance&) {
+    require_given(size);
+    *size = count_bytes(state_of(state));
+  });
+}
+
+fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
+  return run_fmi2(component, "fmi2SerializeFMUstate", kAnyStage, [&](Instance&) {
+    require_given(bytes);
+    const std::vector<char> made = serialize(state_of(state));
+    if (size < made.size()) refuse("there is too little room for the state");
+    std::copy(made.begin(), made.end(), bytes);
+  });
+}
+
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[], size_t size, fmi2FMUstate* state) {
+  return run_fmi2(component, "fmi2DeSerializeFMUstate", kAnyStage, [&](Instance&) {
+    require_given(state);
+    SavedState read = deserialize(bytes, size);
+    if (*state == nullptr) *state = new SavedState;
+    *static_cast<SavedState*>(*state) = std::move(read);
+  });
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference unknown[],
+                                        size_t unknown_count, const fmi2ValueReference known[], size_t known_count,
+                                        const fmi2Real known_direction[], fmi2Real unknown_direction[]) {
+  return run_fmi2(component, "fmi2GetDirectionalDerivative", kAfterStart, [&](Instance& instance) {
+    instance.differentiate(unknown, unknown_count, known, known_count, known_direction, unknown_direction);
+  });
+}
+
+fmi2Status fmi2EnterEventMode(fmi2Component component) {
+  return run_fmi2(component, "fmi2EnterEventMode", kEvents | kContinuous,
+                  [](Instance& instance) { instance.stage = kEvents; });
+}
+
+fmi2Status fmi2NewDiscreteStates(fmi2Component component, fmi2EventInfo* info) {
+  return run_fmi2(component, "fmi2NewDiscreteStates", kEvents, [&](Instance&) {
+    require_given(info);
+    *info = {};
+  });
+}
+
+fmi2Status fmi2EnterContinuousTimeMode(fmi2Component component) {
+  return run_fmi2(component, "fmi2EnterContinuousTimeMode", kEvents,
+                  [](Instance& instance) { instance.stage = kContinuous; });
+}
+
+fmi2Status fmi2CompletedIntegratorStep(fmi2Component component, fmi2Boolean, fmi2Boolean* enter_event_mode,
+                                       fmi2Boolean* terminate) {
+  return run_fmi2(component, "fmi2CompletedIntegratorStep", kContinuous, [&](Instance&) {
+    require_given(enter_event_mode);
+    require_given(terminate);
+    *enter_event_mode = *terminate = fmi2False;
+  });
+}
+
+fmi2Status fmi2SetTime(fmi2Component component, fmi2Real time_s) {
+  return run_fmi2(component, "fmi2SetTime", kEvents | kContinuous,
+                  [&](Instance& instance) { instance.wheel.set_time(time_s); });
+}
+
+fmi2Status fmi2SetContinuousStates(fmi2Component component, const fmi2Real states[], size_t count) {
+  return run_fmi2(component, "fmi2SetContinuousStates", kContinuous, [&](Instance& instance) {
+    instance.require_state_count(count);
+    require_given(states, count);
+    instance.wheel.set_states(states);
+  });
+}
+
+fmi2Status fmi2GetDerivatives(fmi2Component component, fmi2Real derivatives[], size_t count) {
+  return run_fmi2(component, "fmi2GetDerivatives", kEvents | kContinuous, [&](Instance& instance) {
+    instance.require_state_count(count);
+    require_given(derivatives, count);
+    instance.get_rates(derivatives);
+  });
+}
+
+fmi2Status fmi2GetEventIndicators(fmi2Component component, fmi2Real[], size_t count) {
+  return run_fmi2(component, "fmi2GetEventIndicators", kEvents | kContinuous, [&](Instance&) {
+    if (count > 0) refuse("there are no event indicators");
+  });
+}
+
+fmi2Status fmi2GetContinuousStates(fmi2Component component, fmi2Real states[], size_t count) {
+  return run_fmi2(component, "fmi2GetContinuousStates", kEvents | kContinuous, [&](Instance& instance) {
+    instance.require_state_count(count);
+    require_given(states, count);
+    instance.wheel.get_states(states);
+  });
+}
+
+fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component component, fmi2Real nominals[], size_t count) {
+  return run_fmi2(component, "fmi2GetNominalsOfContinuousStates", kNotTerminated, [&](Instance& instance) {
+    instance.require_state_count(count);
+    require_given(nominals, count);
+    instance.get_nominals(nominals);
+  });
+}
+
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueReference references[], size_t count,
+                                       const fmi2Integer order[], const fmi2Real values[]) {
+  return run_fmi2(component, "fmi2SetRealInputDerivatives", kInstantiated | kInitialization | kStepping,
+                  [&](Instance& instance) {
+                    require_given(references, count);
+                    require_given(values, count);
+                    require_first_order(order, count);
+                    for (size_t i = 0; i < count; ++i) instance.wheel.set_input_slope(references[i], values[i]);
+                  });
+}
+
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2ValueReference[], size_t count,
+                                        const fmi2Integer[], fmi2Real[]) {
+  return run_fmi2(component, "fmi2GetRealOutputDerivatives", kStepping, [&](Instance&) {
+    if (count > 0) refuse("derivatives of outputs are not known");
+  });
+}
+
+fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time_s, fmi2Real step_s, fmi2Boolean) {
+  return run_fmi2(component, "fmi2DoStep", kStepping, [&](Instance& instance) { instance.step(time_s, step_s); });
+}
+
+fmi2Status fmi2CancelStep(fmi2Component component) {
+  return run_fmi2(component, "fmi2CancelStep", kStepping,
+                  [](Instance&) { refuse("a step is done when fmi2DoStep returns"); });
+}
+
+fmi2Status fmi2GetStatus(fmi2Component component, fmi2StatusKind, fmi2Status* value) {
+  return tell_status(component, "fmi2GetStatus", value, false, fmi2OK);
+}
+fmi2Status fmi2GetRealStatus(fmi2Component component, fmi2StatusKind kind, fmi2Real* value) {
+  const double time_s = component == nullptr ? 0.0 : static_cast<Fmi2Instance*>(component)->wheel.time_s();
+  return tell_status(component, "fmi2GetRealStatus", value, kind == fmi2LastSuccessfulTime, time_s);
+}
+fmi2Status fmi2GetIntegerStatus(fmi2Component component, fmi2StatusKind, fmi2Integer* value) {
+  return tell_status(component, "fmi2GetIntegerStatus", value, false, 0);
+}
+fmi2Status fmi2GetBooleanStatus(fmi2Component component, fmi2StatusKind kind, fmi2Boolean* value) {
+  return tell_status(component, "fmi2GetBooleanStatus", value, kind == fmi2Terminated, 0);
+}
+fmi2Status fmi2GetStringStatus(fmi2Component component, fmi2StatusKind, fmi2String* value) {
+  return tell_status(component, "fmi2GetStringStatus", value, false, fmi2String());
+}

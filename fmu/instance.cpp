@@ -1,0 +1,163 @@
+#include "fmu/instance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/error.h"
+
+namespace rollrig::fmu {
+namespace {
+
+const char* name_stage(unsigned stage) {
+  switch (stage) {
+    case kInstantiated:
+      return "before the initialization";
+    case kInitialization:
+      return "in the initialization";
+    case kStepping:
+      return "between steps of co-simulation";
+    case kEvents:
+      return "in event mode";
+    case kContinuous:
+      return "in continuous-time mode";
+    default:
+      return "after termination";
+  }
+}
+
+std::vector<std::size_t> widen(const unsigned* references, std::size_t count) {
+  require_given(references, count);
+  return {references, references + count};
+}
+
+}  // namespace
+
+void refuse(const char* why) { throw InputError({why, "", 0, "", "", "", ""}); }
+
+void require_given(const void* pointer, std::size_t count) {
+  if (pointer != nullptr || count == 0) return;
+  refuse("a pointer is null");
+}
+
+Instance::Instance(const WheelModel& model, bool is_for_co_simulation, Log to)
+    : wheel(model), is_co_simulation(is_for_co_simulation), log(std::move(to)) {}
+
+void Instance::require_stage(const char*, unsigned stages) const {
+  if ((stage & stages) != 0) return;
+  throw InputError({fmt::format("this call is not allowed {}", name_stage(stage)), "", 0, "", "", "", ""});
+}
+
+void Instance::report(const char* function, const char* why) noexcept {
+  try {
+    log(fmt::format("{}: {}", function, why));
+  } catch (...) {  // out of memory: the status alone says it
+  }
+}
+
+void Instance::set_up(double start, double stop) {
+  if (!std::isfinite(start) || std::isnan(stop) || stop < start) {
+    throw InputError({"start or stop time is wrong", "", 0, "", fmt::format("{:g} to {:g} s", start, stop), "", ""});
+  }
+  start_s = start;
+  stop_s = stop;
+}
+
+void Instance::enter_initialization() { stage = kInitialization; }
+
+void Instance::exit_initialization() {
+  wheel.initialize(start_s);
+  stage = is_co_simulation ? kStepping : kEvents;
+}
+
+void Instance::reset() {
+  wheel.reset();
+  stage = kInstantiated;
+  start_s = 0.0;
+  stop_s = std::numeric_limits<double>::infinity();
+}
+
+void Instance::get(const unsigned* references, std::size_t count, double* values) {
+  require_given(values, count);
+  const std::vector<std::size_t> variables = widen(references, count);
+  if (stage != kInitialization) {
+    for (std::size_t i = 0; i < count; ++i) values[i] = wheel.get(variables[i]);
+    return;
+  }
+  // Outputs and states as they would be at the start; parameters may still be set.
+  struct TakeBack {
+    WarmWheel& wheel;
+    ~TakeBack() { wheel.take_back_start(); }
+  } take_back{wheel};
+  wheel.initialize(start_s);
+  for (std::size_t i = 0; i < count; ++i) values[i] = wheel.get(variables[i]);
+}
+
+void Instance::set(const unsigned* references, std::size_t count, const double* values) {
+  require_given(values, count);
+  const std::vector<std::size_t> variables = widen(references, count);
+  std::size_t done = 0;
+  std::vector<double> former;
+  try {
+    for (; done < count; ++done) {
+      former.push_back(wheel.get_if_settable(variables[done]));
+      wheel.set(variables[done], values[done]);
+    }
+  } catch (...) {
+    while (done-- > 0) wheel.set(variables[done], former[done]);
+    throw;
+  }
+}
+
+void Instance::step(double time_s, double step_s) {
+  const double slack_s = 1e-9 * std::max(1.0, std::abs(wheel.time_s()));
+  if (!(std::abs(time_s - wheel.time_s()) <= slack_s)) {
+    throw InputError({"the step does not begin where the last one ended", "", 0, "time", fmt::format("{:g}", time_s),
+                      fmt::format("{:g} s", wheel.time_s()), ""});
+  }
+  if (wheel.time_s() + step_s > stop_s + slack_s) {
+    throw InputError({"the step leads beyond the stop time", "", 0, "step", fmt::format("{:g}", step_s),
+                      fmt::format("up to {:g} s", stop_s - wheel.time_s()), ""});
+  }
+  wheel.advance(step_s);
+}
+
+void Instance::differentiate(const unsigned* unknown, std::size_t unknown_count, const unsigned* known,
+                             std::size_t known_count, const double* direction, double* derivatives) {
+  require_given(direction, known_count);
+  require_given(derivatives, unknown_count);
+  const std::vector<double> found = wheel.differentiate(widen(unknown, unknown_count), widen(known, known_count),
+                                                        {direction, direction + known_count});
+  std::copy(found.begin(), found.end(), derivatives);
+}
+
+void Instance::get_rates(double* rates) {
+  for (std::size_t i = 0; i < wheel.state_count(); ++i) rates[i] = wheel.get(wheel.first_rate() + i);
+}
+
+void Instance::get_nominals(double* nominals) const {
+  for (std::size_t i = 0; i < wheel.state_count(); ++i) {
+    nominals[i] = wheel.variables()[wheel.first_state() + i].nominal;
+  }
+}
+
+void Instance::load(const SavedState& state) {
+  const unsigned wanted = static_cast<unsigned>(state.stage);
+  const unsigned possible = kAnyStage & ~(is_co_simulation ? kEvents | kContinuous : kStepping);
+  const bool is_one = wanted != 0 && (wanted & (wanted - 1)) == 0 && (wanted & possible) != 0;
+  const bool has_started = (wanted & kAfterStart) != 0;
+  if (!is_one || (has_started && state.wheel.states.empty())) {
+    refuse("the state is one of another kind of instance");
+  }
+  wheel.restore(state.wheel);
+  stage = wanted;
+}
+
+void Instance::require_state_count(std::size_t count) const {
+  if (count == wheel.state_count()) return;
+  throw InputError({"the number of states is wrong", "", 0, "", fmt::format("{}", count),
+                    fmt::format("{}", wheel.state_count()), ""});
+}
+
+}  // namespace rollrig::fmu

@@ -1,0 +1,92 @@
+#include "fmu/saved_state.h"
+
+#include <cstdint>
+#include <cstring>
+
+#include "sim/core/error.h"
+
+namespace rollrig::fmu {
+namespace {
+
+struct Head {
+  char mark[8] = {'R', 'R', 'W', 'H', 'E', 'E', 'L', '1'};
+  std::uint64_t checksum = 0;  // of all after the head
+  std::uint64_t stage = 0;
+  std::uint64_t counts[4] = {};  // parameters, inputs, slopes, states
+  double time_s = 0.0;
+};
+
+/// FNV-1a: finds bytes that were cut or changed by accident.
+std::uint64_t calc_checksum(const char* bytes, std::size_t size) {
+  std::uint64_t sum = 14695981039346656037u;
+  for (std::size_t i = 0; i < size; ++i) sum = (sum ^ static_cast<unsigned char>(bytes[i])) * 1099511628211u;
+  return sum;
+}
+
+/// Calls visit(list) for each list of numbers.
+template <class Wheel, class Visit>
+void visit_lists(Wheel& wheel, Visit&& visit) {
+  visit(wheel.parameters);
+  visit(wheel.inputs);
+  visit(wheel.input_slopes);
+  visit(wheel.states);
+}
+
+InputError not_a_state() {
+  return InputError({"these bytes are not a state of this wheel", "", 0, "", "", "bytes that were serialized", ""});
+}
+
+}  // namespace
+
+std::size_t count_bytes(const SavedState& state) {
+  std::size_t numbers = 0;
+  visit_lists(state.wheel, [&numbers](const std::vector<double>& list) { numbers += list.size(); });
+  return sizeof(Head) + numbers * sizeof(double);
+}
+
+std::vector<char> serialize(const SavedState& state) {
+  Head head;
+  head.stage = static_cast<std::uint64_t>(state.stage);
+  head.time_s = state.wheel.time_s;
+  std::vector<char> bytes(count_bytes(state));
+  char* end = bytes.data() + sizeof(Head);
+  std::uint64_t* count = head.counts;
+  visit_lists(state.wheel, [&](const std::vector<double>& list) {
+    *count++ = list.size();
+    if (!list.empty()) std::memcpy(end, list.data(), list.size() * sizeof(double));
+    end += list.size() * sizeof(double);
+  });
+  head.checksum = calc_checksum(bytes.data() + sizeof(Head), bytes.size() - sizeof(Head));
+  std::memcpy(bytes.data(), &head, sizeof(Head));
+  return bytes;
+}
+
+SavedState deserialize(const char* bytes, std::size_t size) {
+  const Head wanted;
+  Head head;
+  if (bytes == nullptr || size < sizeof(Head)) throw not_a_state();
+  std::memcpy(&head, bytes, sizeof(Head));
+  if (std::memcmp(head.mark, wanted.mark, sizeof(head.mark)) != 0) throw not_a_state();
+  std::size_t left = (size - sizeof(Head)) / sizeof(double);
+  for (const std::uint64_t count : head.counts) {
+    if (count > left) throw not_a_state();
+    left -= static_cast<std::size_t>(count);
+  }
+  if (left != 0 || (size - sizeof(Head)) % sizeof(double) != 0 || head.stage > 100 ||
+      head.checksum != calc_checksum(bytes + sizeof(Head), size - sizeof(Head))) {
+    throw not_a_state();
+  }
+  SavedState state;
+  state.stage = static_cast<int>(head.stage);
+  state.wheel.time_s = head.time_s;
+  const char* from = bytes + sizeof(Head);
+  const std::uint64_t* count = head.counts;
+  visit_lists(state.wheel, [&](std::vector<double>& list) {
+    list.resize(static_cast<std::size_t>(*count++));
+    if (!list.empty()) std::memcpy(list.data(), from, list.size() * sizeof(double));
+    from += list.size() * sizeof(double);
+  });
+  return state;
+}
+
+}  // namespace rollrig::fmu

@@ -1,0 +1,479 @@
+#include "fmu/warm_wheel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rigs/driven_wheel.h"
+#include "rigs/standstill_grid.h"
+#include "sim/core/error.h"
+#include "sim/fixed_grid_integrator.h"
+
+namespace rollrig::fmu {
+namespace {
+
+/// What is asked of an input: name and meaning, what is allowed.
+struct InputInfo {
+  const char* name;
+  const char* doc;
+  Range range;
+};
+
+constexpr Range kSurroundings_K = between(150.0, 500.0);  // Assumed: wider than any weather or test cell
+constexpr Range kForces_N = between(-1e6, 1e6);
+
+/// In the order of a roller's inputs; then the acceleration.
+constexpr std::array<InputInfo, rigs::kRollerInputCount + 1> kInputs{
+    {{"speed_m_s", "Speed of the surface past the wheel", between(-150.0, 150.0)},
+     {"load_N", "Load at the contact", between(0.0, 1e6)},
+     {"ambient_temperature_K", "Air at the tire", kSurroundings_K},
+     {"surface_temperature_K", "Road, drum or belt under the tire", kSurroundings_K},
+     {"drive_force_N", "Torque of the hub on the wheel over the loaded radius, positive when it drives", kForces_N},
+     {"acceleration_m_s2", "Rate of the speed, by which it goes on through a step of co-simulation",
+      between(-1e3, 1e3)}}};
+constexpr std::size_t kSpeed = rigs::index_of(rigs::DrumInput::kSpeed);
+constexpr std::size_t kAcceleration = rigs::kRollerInputCount;
+
+struct OutputInfo {
+  const char* name;
+  const char* doc;
+};
+
+constexpr std::array<OutputInfo, 9> kOutputs{
+    {{"rolling_resistance_N", "Rolling resistance of the tire, against the motion"},
+     {"parasitic_loss_N", "Loss of the bearings, of the rig or on the road of the wheel, as force at the surface"},
+     {"loss_force_N", "Rolling resistance, parasitic loss and slip, as a dynamometer measures them"},
+     {"contact_force_N", "Force of the wheel on the surface, positive when it drives"},
+     {"cavity_pressure_Pa", "Gauge pressure in the tire"},
+     {"slip_power_W", "Heat by longitudinal slip; 0 without the effect slip_loss"},
+     {"heat_generated_W", "Heat that arises in the tire"},
+     {"heat_to_air_W", "Heat that the tire gives to the air"},
+     {"heat_to_surface_W", "Heat that the tire gives to the surface"}}};
+
+template <class S>
+std::array<S, kOutputs.size()> read_outputs(const rigs::DrivenWheel<S>& wheel) {
+  const models::Instant<S>& now = wheel.now();
+  return {now.rolling_resistance_N, now.parasitic_N,         wheel.loss_force_N(), -now.motion.longitudinal_force_N,
+          now.pressure_Pa,          now.motion.slip_power_W, now.heat.heat_in_W,   now.heat.to_air_W,
+          now.heat.to_road_W};
+}
+
+constexpr const char* kLostEnergy = "tire_loss_J";
+constexpr double kEnergyScale_J = 1e5;  // Assumed: of a tire in minutes
+constexpr std::size_t kLostIntegral = rigs::index_of(rigs::RecordedIntegral::kTireLoss);
+
+constexpr double kMostSteps = 1e5;  // of the integrator in one advance(): no mistaken number keeps it busy for ever
+
+constexpr const char* kLiner = "liner_temperature_K";  // whatever the tire's model calls it
+
+/// Temperatures in K, else as the corner names its states.
+std::string name_state(const Quantity& quantity) {
+  return quantity.unit_suffix() == "degC" ? std::string(quantity.name()) + "_K" : quantity.header();
+}
+
+InputError bad_value(const Variable& variable, double value, const std::string& what) {
+  std::string allowed = variable.range.to_string();
+  if (allowed.empty()) allowed = "a number";
+  if (!variable.unit.symbol.empty()) allowed += " " + variable.unit.symbol;
+  return InputError({what, "", 0, variable.name, fmt::format("{:g}", value), allowed, ""});
+}
+
+void require_finite(double value, const std::string& name) {
+  if (std::isfinite(value)) return;
+  throw InputError(
+      {"the value is not a finite number", "", 0, name, fmt::format("{:g}", value), "a finite number", ""});
+}
+
+/// What ranges of single numbers cannot say. Throws InputError.
+void require_consistent(const WheelModel& model) {
+  const models::TireParameters<double>& tire = model.context.tire;
+  const auto refuse = [](const std::string& what, const std::string& key, double value, const std::string& allowed) {
+    throw InputError({what, "", 0, key, fmt::format("{:g}", value), allowed, ""});
+  };
+  if (tire.geometry.rim_diameter_m >= tire.geometry.outer_diameter_m) {
+    refuse("the rim is larger than the tire", "geometry.rim_diameter_m", tire.geometry.rim_diameter_m,
+           fmt::format("less than {:g} m, the outer diameter", tire.geometry.outer_diameter_m));
+  }
+  for (std::size_t i = 1; i < tire.load_map.size(); ++i) {
+    if (tire.load_map[i].load_N > tire.load_map[i - 1].load_N) continue;
+    refuse("loads of the map must increase", fmt::format("load_map.{}.load_N", i), tire.load_map[i].load_N,
+           fmt::format("more than {:g} N", tire.load_map[i - 1].load_N));
+  }
+  const models::TireModelInfo& info = tire.model().info;
+  if (info.find_mistake == nullptr) return;
+  if (const auto mistake = info.find_mistake(tire.own)) {
+    throw InputError({mistake->what, "", 0, info.id + "." + mistake->key, "", mistake->allowed, ""});
+  }
+}
+
+}  // namespace
+
+/// The equations for one scalar, with what an integrator needs.
+template <class S>
+struct WarmWheel::Rig {
+  static rigs::RigStart<S> make_start(const WheelModel& model) {
+    rigs::RigStart<S> start;
+    start.tire_temperature_K = S(model.tire_temperature_K);
+    start.cold_pressure_Pa = S(model.cold_pressure_Pa);
+    start.ambient_pressure_Pa = S(model.ambient_pressure_Pa);
+    return start;
+  }
+
+  explicit Rig(const WheelModel& model)
+      : corner(models::convert_context<S>(model.context), model.effects),
+        wheel(corner, make_start(model), true, rigs::Detail::kFull),
+        integrator(wheel),
+        states(corner.state_count()),
+        rates(corner.state_count()),
+        integrals(wheel.integrals().size()) {}
+
+  models::Corner<S> corner;
+  rigs::DrivenWheel<S> wheel;
+  sim::FixedGridIntegrator<S> integrator;
+  std::vector<S> states, rates, integrals;
+};
+
+WarmWheel::WarmWheel(const WheelModel& model) : made_of_(model), model_(model) {
+  list_variables();
+  reset();
+}
+
+WarmWheel::~WarmWheel() = default;
+
+void WarmWheel::take_back_start() {
+  rig_.reset();
+  jet_rig_.reset();
+  states_.clear();
+  is_evaluated_ = false;
+}
+
+void WarmWheel::reset() {
+  take_back_start();
+  model_ = made_of_;
+  list_parameters();
+  inputs_.clear();
+  for (std::size_t i = 0; i < kInputs.size(); ++i) inputs_.push_back(variables_[i].start);
+  input_slopes_.assign(kInputs.size(), 0.0);
+  time_s_ = 0.0;
+}
+
+void WarmWheel::list_parameters() {
+  parameters_.clear();
+  WheelModel::visit(model_,
+                    [this](const std::string&, const Field&, double& member) { parameters_.push_back(&member); });
+}
+
+void WarmWheel::add_variable(Variable variable) {
+  if (variable.unit.symbol.empty()) variable.unit = unit_of_key(variable.name);
+  const Role role = variable.role;
+  variable.index = static_cast<std::size_t>(std::count_if(
+      variables_.begin(), variables_.end(), [role](const Variable& other) { return other.role == role; }));
+  variables_.push_back(std::move(variable));
+}
+
+void WarmWheel::list_variables() {
+  const std::array<double, kInputs.size()> starts{0.0, model_.load_N, model_.ambient_K, model_.ambient_K, 0.0, 0.0};
+  for (std::size_t i = 0; i < kInputs.size(); ++i) {
+    add_variable({kInputs[i].name, Role::kInput, kInputs[i].doc, kInputs[i].range, {}, starts[i]});
+  }
+  for (const OutputInfo& output : kOutputs) add_variable({output.name, Role::kOutput, output.doc, {}, {}});
+  first_state_ = variables_.size();
+  const models::Corner<double> corner(model_.context, model_.effects);
+  for (std::size_t i = 0; i < corner.state_count(); ++i) {
+    const models::CornerState& state = corner.states()[i];
+    const std::string name = i == corner.state_of(models::Node::kLiner) ? kLiner : name_state(state.quantity);
+    const Unit unit = unit_of_key(name);
+    add_variable({name, Role::kState, "State: " + plain_name(name), {}, unit, 0.0, state.scale_SI / unit.factor});
+  }
+  add_variable({kLostEnergy, Role::kState, "Energy that rolling resistance has taken", {}, {}, 0.0, kEnergyScale_J});
+  state_count_ = variables_.size() - first_state_;
+  for (std::size_t i = 0; i < state_count_; ++i) {
+    const Variable of = state(i);
+    add_variable({"der(" + of.name + ")", Role::kRate, "Rate of " + of.name, {}, of.unit});
+  }
+  WheelModel::visit(model_, [this](const std::string& name, const Field& field, double value_SI) {
+    const Unit unit = unit_of_key(field.key);
+    add_variable({name, Role::kParameter, field.doc, field.range, unit, unit.from_si(value_SI)});
+  });
+  add_variable({"time_s", Role::kTime, "Time", {}, {}});
+}
+
+const Variable& WarmWheel::variable(std::size_t index) const {
+  if (index < variables_.size()) return variables_[index];
+  throw InputError({"there is no such variable", "", 0, "", fmt::format("{}", index),
+                    fmt::format("0 to {}", variables_.size() - 1), ""});
+}
+
+void WarmWheel::require_initialized() const {
+  if (rig_ == nullptr) {
+    throw InputError({"the wheel has not been initialized", "", 0, "", "", "initialize it before this call", ""});
+  }
+}
+
+void WarmWheel::set(std::size_t index, double value) {
+  const Variable& given = variable(index);
+  if (given.role != Role::kInput && given.role != Role::kParameter) {
+    throw bad_value(given, value, "only inputs and parameters can be set");
+  }
+  if (!given.range.contains(value)) throw bad_value(given, value, "the value is not allowed");
+  if (given.role == Role::kInput) {
+    inputs_[given.index] = value;
+    is_evaluated_ = false;
+    return;
+  }
+  if (is_initialized()) throw bad_value(given, value, "a parameter cannot be set after the start");
+  *parameters_[given.index] = given.unit.to_si(value);
+}
+
+void WarmWheel::set_input_slope(std::size_t index, double slope_per_s) {
+  const Variable& given = variable(index);
+  require_finite(slope_per_s, given.name);
+  if (given.role != Role::kInput || given.index == kAcceleration) {
+    throw bad_value(given, slope_per_s, "only an input but the acceleration has a slope");
+  }
+  if (given.index == kSpeed) return set(kAcceleration, slope_per_s);
+  input_slopes_[given.index] = slope_per_s;
+}
+
+double WarmWheel::find_slope(std::size_t input) const {
+  return input == kSpeed ? inputs_[kAcceleration] : input_slopes_[input];
+}
+
+double WarmWheel::get(std::size_t index) {
+  const Variable& wanted = variable(index);
+  switch (wanted.role) {
+    case Role::kInput:
+      return inputs_[wanted.index];
+    case Role::kParameter:
+      return wanted.unit.from_si(*parameters_[wanted.index]);
+    case Role::kState:
+      require_initialized();
+      return wanted.unit.from_si(states_[wanted.index]);
+    case Role::kOutput:
+      evaluate();
+      return outputs_[wanted.index];
+    case Role::kTime:
+      return time_s_;
+    case Role::kRate:
+      break;
+  }
+  evaluate();
+  return rates_[wanted.index] / wanted.unit.factor;
+}
+
+double WarmWheel::get_if_settable(std::size_t index) {
+  const Role role = variable(index).role;
+  return role == Role::kInput || role == Role::kParameter ? get(index) : 0.0;
+}
+
+/// The present inputs, and their slopes where time passes.
+sim::Segment WarmWheel::make_segment(double duration_s) const {
+  sim::Segment segment;
+  segment.duration_s = duration_s;
+  for (std::size_t i = 0; i < rigs::kRollerInputCount; ++i) {
+    segment.inputs.push_back({inputs_[i], find_slope(i)});
+  }
+  return segment;
+}
+
+std::unique_ptr<WarmWheel::Rig<double>> WarmWheel::make_rig(double time_s) const {
+  require_consistent(model_);
+  auto rig = std::make_unique<Rig<double>>(model_);
+  rig->wheel.initialize(make_segment(0.0), time_s, rig->states.data());
+  return rig;
+}
+
+void WarmWheel::initialize(double time_s) {
+  require_finite(time_s, "time");
+  std::unique_ptr<Rig<double>> rig = make_rig(time_s);
+  states_ = rig->states;
+  states_.push_back(0.0);
+  rig_ = std::move(rig);
+  jet_rig_.reset();
+  time_s_ = time_s;
+  is_evaluated_ = false;
+}
+
+void WarmWheel::set_time(double time_s) {
+  require_finite(time_s, "time");
+  time_s_ = time_s;
+}
+
+void WarmWheel::evaluate() {
+  require_initialized();
+  if (is_evaluated_) return;
+  Rig<double>& rig = *rig_;
+  std::copy_n(states_.begin(), rig.states.size(), rig.states.begin());
+  rig.wheel.give({inputs_[kAcceleration], {}});
+  rig.wheel.begin_segment(make_segment(0.0), time_s_, rig.states.data(), rig.integrals.data());
+  rig.wheel.evaluate(time_s_, rig.states.data(), rig.rates.data(), rig.integrals.data());
+  const auto outputs = read_outputs(rig.wheel);
+  outputs_.assign(outputs.begin(), outputs.end());
+  rates_ = rig.rates;
+  rates_.push_back(rig.integrals[kLostIntegral]);
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(outputs_.begin(), outputs_.end(), is_finite) ||
+      !std::all_of(rates_.begin(), rates_.end(), is_finite)) {
+    throw RunFailure("the equations give no finite number for these inputs and states");
+  }
+  is_evaluated_ = true;
+}
+
+void WarmWheel::advance(double duration_s) {
+  require_initialized();
+  if (!(duration_s > 0.0) || !std::isfinite(duration_s)) {
+    throw InputError({"a step must have a length", "", 0, "step", fmt::format("{:g}", duration_s), "> 0 s", ""});
+  }
+  if (duration_s > kMostSteps * model_.longest_step_s || time_s_ + duration_s == time_s_) {
+    throw InputError({"the step is too long, or too short for the time", "", 0, "step", fmt::format("{:g}", duration_s),
+                      fmt::format("up to {:g} s", kMostSteps * model_.longest_step_s), ""});
+  }
+  for (std::size_t i = 0; i < rigs::kRollerInputCount; ++i) {
+    const double end = inputs_[i] + find_slope(i) * duration_s;
+    if (!kInputs[i].range.contains(end)) throw bad_value(variables_[i], end, "the slope leads to a value not allowed");
+  }
+  Rig<double>& rig = *rig_;
+  is_evaluated_ = false;
+  rig.integrator.begin_run(time_s_);
+  std::copy_n(states_.begin(), rig.states.size(), rig.integrator.state());
+  rig.integrator.integrals()[kLostIntegral] = states_.back();
+  rig.wheel.give({inputs_[kAcceleration], {}});
+  sim::Program program;
+  program.phases.push_back({"", {make_segment(duration_s)}, {}, {}});
+  double end_s = time_s_;
+  program = rigs::refine_near_standstill(program, kSpeed);
+  for (const sim::Segment& piece : program.phases.front().segments) {
+    end_s += piece.duration_s;
+    rig.wheel.begin_segment(piece, rig.integrator.time_s(), rig.integrator.state(), rig.integrator.integrals());
+    const double longest_s = model_.longest_step_s;
+    rig.integrator.begin_segment(piece.max_step_s > 0.0 ? std::min(piece.max_step_s, longest_s) : longest_s, nullptr);
+    while (rig.integrator.time_s() < end_s) {
+      rig.integrator.step(end_s);
+      rig.wheel.require_possible(rig.integrator.state());
+    }
+  }
+  std::copy_n(rig.integrator.state(), rig.states.size(), states_.begin());
+  states_.back() = rig.integrator.integrals()[kLostIntegral];
+  time_s_ += duration_s;
+  for (std::size_t i = 0; i < rigs::kRollerInputCount; ++i) {
+    inputs_[i] += find_slope(i) * duration_s;
+    input_slopes_[i] = 0.0;
+  }
+}
+
+void WarmWheel::get_states(double* states) const {
+  require_initialized();
+  for (std::size_t i = 0; i < state_count_; ++i) states[i] = state(i).unit.from_si(states_[i]);
+}
+
+void WarmWheel::set_states(const double* states) {
+  require_initialized();
+  std::vector<double> states_SI(state_count_);
+  for (std::size_t i = 0; i < state_count_; ++i) {
+    require_finite(states[i], state(i).name);
+    states_SI[i] = state(i).unit.to_si(states[i]);
+  }
+  rig_->wheel.require_possible(states_SI.data());
+  states_ = std::move(states_SI);
+  is_evaluated_ = false;
+}
+
+std::vector<double> WarmWheel::differentiate(const std::vector<std::size_t>& unknown,
+                                             const std::vector<std::size_t>& known,
+                                             const std::vector<double>& direction) {
+  require_initialized();
+  if (jet_rig_ == nullptr) {
+    jet_rig_ = std::make_unique<Rig<Jet>>(model_);
+    jet_rig_->wheel.initialize(make_segment(0.0), time_s_, jet_rig_->states.data());
+  }
+  Rig<Jet>& rig = *jet_rig_;
+  Jet lost{states_.back()};
+  std::transform(states_.begin(), states_.end() - 1, rig.states.begin(), [](double value) { return Jet(value); });
+  rigs::DrivenWheel<Jet>::Given given;
+  given.acceleration_m_s2 = Jet(inputs_[kAcceleration]);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const Variable& by = variable(known[i]);
+    require_finite(direction[i], by.name);
+    if (by.role == Role::kInput) {
+      Jet& seeded = by.index == kAcceleration ? given.acceleration_m_s2 : given.seeds[by.index];
+      seeded.v[0] += direction[i];
+    } else if (by.role == Role::kState) {
+      Jet& seeded = by.index + 1 == state_count_ ? lost : rig.states[by.index];
+      seeded.v[0] += direction[i] * by.unit.factor;
+    } else {
+      throw bad_value(by, direction[i], "derivatives are by inputs and states alone");
+    }
+  }
+  rig.wheel.give(given);
+  rig.wheel.begin_segment(make_segment(0.0), time_s_, rig.states.data(), rig.integrals.data());
+  rig.wheel.evaluate(time_s_, rig.states.data(), rig.rates.data(), rig.integrals.data());
+  const auto outputs = read_outputs(rig.wheel);
+  std::vector<double> derivatives;
+  for (const std::size_t index : unknown) {
+    const Variable& of = variable(index);
+    const bool is_lost = of.index + 1 == state_count_;
+    if (of.role == Role::kOutput) {
+      derivatives.push_back(outputs[of.index].v[0]);
+    } else if (of.role == Role::kState) {
+      derivatives.push_back((is_lost ? lost : rig.states[of.index]).v[0] / of.unit.factor);
+    } else if (of.role == Role::kRate) {
+      derivatives.push_back((is_lost ? rig.integrals[kLostIntegral] : rig.rates[of.index]).v[0] / of.unit.factor);
+    } else {
+      throw bad_value(of, 0.0, "derivatives are those of outputs, states and rates alone");
+    }
+  }
+  return derivatives;
+}
+
+Snapshot WarmWheel::take_snapshot() const {
+  Snapshot snapshot{{}, inputs_, input_slopes_, states_, time_s_};
+  for (const double* parameter : parameters_) snapshot.parameters.push_back(*parameter);
+  return snapshot;
+}
+
+void WarmWheel::restore(const Snapshot& snapshot) {
+  const bool has_states = !snapshot.states.empty();
+  if (snapshot.parameters.size() != parameters_.size() || snapshot.inputs.size() != inputs_.size() ||
+      snapshot.input_slopes.size() != inputs_.size() || (has_states && snapshot.states.size() != state_count_)) {
+    throw InputError({"the state is one of another wheel", "", 0, "", "", "a state of this wheel", ""});
+  }
+  require_finite(snapshot.time_s, "time");
+  for (const Variable& given : variables_) {
+    if (given.role != Role::kInput && given.role != Role::kParameter) continue;
+    const double value = given.role == Role::kInput ? snapshot.inputs[given.index]
+                                                    : given.unit.from_si(snapshot.parameters[given.index]);
+    const double slack = 1e-9 * std::abs(value);  // of the conversion of units
+    if (!given.range.contains(value) && !given.range.contains(value - slack) && !given.range.contains(value + slack)) {
+      throw bad_value(given, value, "the state has a value that is not allowed");
+    }
+  }
+  for (const double slope : snapshot.input_slopes) require_finite(slope, "slope");
+  for (std::size_t i = 0; i < snapshot.states.size(); ++i) require_finite(snapshot.states[i], state(i).name);
+
+  const Snapshot before = take_snapshot();
+  const auto put = [this](const Snapshot& from) {
+    for (std::size_t i = 0; i < parameters_.size(); ++i) *parameters_[i] = from.parameters[i];
+    inputs_ = from.inputs;
+    input_slopes_ = from.input_slopes;
+  };
+  std::unique_ptr<Rig<double>> rig;
+  const bool same_wheel = is_initialized() && before.parameters == snapshot.parameters;
+  try {
+    put(snapshot);
+    if (has_states && !same_wheel) rig = make_rig(snapshot.time_s);
+    if (has_states) (same_wheel ? *rig_ : *rig).wheel.require_possible(snapshot.states.data());
+  } catch (...) {
+    put(before);
+    throw;
+  }
+  if (!same_wheel || !has_states) {
+    rig_ = std::move(rig);
+    jet_rig_.reset();
+  }
+  states_ = snapshot.states;
+  time_s_ = snapshot.time_s;
+  is_evaluated_ = false;
+}
+
+}  // namespace rollrig::fmu

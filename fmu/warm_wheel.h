@@ -1,0 +1,130 @@
+#pragma once
+/// A warm tire on its wheel for another simulator, which gives its motion, load, drive and surroundings: what stands
+/// behind the C API and the FMU.
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fmu/wheel_model.h"
+#include "sim/program.h"
+
+namespace rollrig::fmu {
+
+enum class Role { kInput, kOutput, kState, kRate, kParameter, kTime };
+
+/// A number that another simulator sees, in the unit that its name ends with.
+struct Variable {
+  std::string name;
+  Role role;
+  std::string doc;
+  Range range;            // allowed, of an input or a parameter
+  Unit unit;              // what "value" means
+  double start = 0.0;     // of an input or a parameter
+  double nominal = 1.0;   // size that matters, of a state
+  std::size_t index = 0;  // among those of the same role
+};
+
+/// A moment of a wheel, from which it goes on as if nothing had been in between. In SI units.
+struct Snapshot {
+  std::vector<double> parameters;
+  std::vector<double> inputs;
+  std::vector<double> input_slopes;
+  std::vector<double> states;  // empty before initialize()
+  double time_s = 0.0;
+};
+
+/// One wheel. Two threads may use two wheels at once, but not one.
+///
+/// Parameters may be set before initialize() alone, inputs always. Inputs, outputs and states are in SI units,
+/// parameters in those of files.
+///
+/// Equation  rigs/driven_wheel.h; states are those of models/corner.h, and the energy that the tire has lost. advance()
+///           steps as a quasi-static run does: sim/fixed_grid_integrator.h on the grid of rigs/standstill_grid.h
+/// Errors    InputError: a value that is not allowed, not a number, or set too late. RunFailure: the wheel is in a state
+///           that none can have. After either, all is as it was before the call, but that a failed advance() leaves
+///           time and states in between
+/// Checked   tests/fmu/co_simulation_test.cpp
+class WarmWheel {
+ public:
+  explicit WarmWheel(const WheelModel& model);
+  ~WarmWheel();
+  WarmWheel(const WarmWheel&) = delete;
+  WarmWheel& operator=(const WarmWheel&) = delete;
+
+  /// Inputs, outputs, states, rates, parameters, time, in this order.
+  const std::vector<Variable>& variables() const { return variables_; }
+  std::size_t state_count() const { return state_count_; }
+  /// Variables of the first state and of its rate; the others follow.
+  std::size_t first_state() const { return first_state_; }
+  std::size_t first_rate() const { return first_state_ + state_count_; }
+
+  void set(std::size_t variable, double value);
+  /// An output, a state or a rate is that of the present inputs and states.
+  double get(std::size_t variable);
+  /// The value of an input or a parameter; 0 of all else.
+  double get_if_settable(std::size_t variable);
+  /// Slope of an input through the next advance(), after which it is 0 again. That of the speed is the acceleration
+  /// too.
+  void set_input_slope(std::size_t variable, double slope_per_s);
+
+  bool is_initialized() const { return rig_ != nullptr; }
+  /// Puts the tire at the start, soaked at its temperature, under the present inputs.
+  void initialize(double time_s);
+  /// Back to before initialize(): parameters and inputs stay, and may be set.
+  void take_back_start();
+  /// Back to how it was made.
+  void reset();
+
+  double time_s() const { return time_s_; }
+  /// Sets the time alone, for a solver of others.
+  void set_time(double time_s);
+  /// Goes on by `duration_s`; inputs with a slope end where it leads.
+  void advance(double duration_s);
+
+  /// In the units of their variables.
+  void get_states(double* states) const;
+  void set_states(const double* states);
+
+  /// Derivative of `unknown` (outputs, states, rates) along a direction of `known` (inputs, states): an entry each.
+  std::vector<double> differentiate(const std::vector<std::size_t>& unknown, const std::vector<std::size_t>& known,
+                                    const std::vector<double>& direction);
+
+  Snapshot take_snapshot() const;
+  /// Throws InputError where the snapshot is not one of such a wheel.
+  void restore(const Snapshot& snapshot);
+
+ private:
+  template <class S>
+  struct Rig;
+
+  void list_parameters();
+  void list_variables();
+  void add_variable(Variable variable);
+  const Variable& variable(std::size_t index) const;
+  const Variable& state(std::size_t index) const { return variables_[first_state_ + index]; }
+  void require_initialized() const;
+  double find_slope(std::size_t input) const;
+  std::unique_ptr<Rig<double>> make_rig(double time_s) const;
+  sim::Segment make_segment(double duration_s) const;
+  void evaluate();
+
+  WheelModel made_of_;  // as it was made
+  WheelModel model_;
+  std::vector<double*> parameters_;  // into model_, SI
+  std::vector<Variable> variables_;
+  std::size_t first_state_ = 0;
+  std::size_t state_count_ = 0;
+  std::vector<double> inputs_;
+  std::vector<double> input_slopes_;
+  std::vector<double> states_;
+  double time_s_ = 0.0;
+  bool is_evaluated_ = false;
+  std::vector<double> rates_;
+  std::vector<double> outputs_;
+  std::unique_ptr<Rig<double>> rig_;
+  std::unique_ptr<Rig<Jet>> jet_rig_;  // made when a derivative is asked for
+};
+
+}  // namespace rollrig::fmu

@@ -1,0 +1,136 @@
+// The C API, and the examples that use it.
+#include "rollrig/c_api.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "build_paths.h"
+#include "rollrig/run.h"
+#include "tests/support/run_program.h"
+
+using rollrig::tests::ProgramResult;
+
+namespace {
+
+struct FreeC {
+  void operator()(rollrig_wheel* wheel) const { rollrig_wheel_free(wheel); }
+  void operator()(rollrig_run* run) const { rollrig_run_free(run); }
+};
+using WheelPointer = std::unique_ptr<rollrig_wheel, FreeC>;
+using RunPointer = std::unique_ptr<rollrig_run, FreeC>;
+
+double get(const WheelPointer& wheel, const char* name) {
+  double value = 0.0;
+  REQUIRE(rollrig_wheel_get(wheel.get(), rollrig_wheel_find_variable(wheel.get(), name), &value) == ROLLRIG_OK);
+  return value;
+}
+
+void set(const WheelPointer& wheel, const char* name, double value) {
+  REQUIRE(rollrig_wheel_set(wheel.get(), rollrig_wheel_find_variable(wheel.get(), name), value) == ROLLRIG_OK);
+}
+
+}  // namespace
+
+TEST_CASE("a wheel of the C API warms up, is kept and goes on", "[fast]") {
+  CHECK(rollrig_c_api_version() == ROLLRIG_C_API_VERSION);
+  const WheelPointer tire(rollrig_wheel_create("a50", "drum_2m"));
+  REQUIRE(tire != nullptr);
+  set(tire, "thermal.gas_heat_capacity_J_per_K", 80.0);
+  REQUIRE(rollrig_wheel_start(tire.get(), 0.0) == ROLLRIG_OK);
+  set(tire, "speed_m_s", 20.0);
+  const double cold_N = get(tire, "rolling_resistance_N");
+  REQUIRE(rollrig_wheel_step(tire.get(), 900.0) == ROLLRIG_OK);
+  CHECK(get(tire, "rolling_resistance_N") < 0.95 * cold_N);
+  std::vector<char> bytes(static_cast<std::size_t>(rollrig_wheel_saved_size(tire.get())));
+  REQUIRE(rollrig_wheel_save(tire.get(), bytes.data(), static_cast<int>(bytes.size())) == ROLLRIG_OK);
+  REQUIRE(rollrig_wheel_step(tire.get(), 60.0) == ROLLRIG_OK);
+
+  // The same tire, given as the text of its file.
+  const std::string text = rollrig::tests::read_file(std::string(ROLLRIG_SOURCE_DIR) + "/assets/tires/a50.toml");
+  const WheelPointer other(rollrig_wheel_create(text.c_str(), "drum_2m"));
+  REQUIRE(other != nullptr);
+  REQUIRE(rollrig_wheel_load(other.get(), bytes.data(), static_cast<int>(bytes.size())) == ROLLRIG_OK);
+  REQUIRE(rollrig_wheel_step(other.get(), 60.0) == ROLLRIG_OK);
+  CHECK(get(other, "liner_temperature_K") == get(tire, "liner_temperature_K"));
+}
+
+TEST_CASE("a solver of one's own finds states, rates and derivatives in the C API", "[fast]") {
+  const WheelPointer tire(rollrig_wheel_create("a50", "road"));
+  REQUIRE(rollrig_wheel_start(tire.get(), 0.0) == ROLLRIG_OK);
+  set(tire, "speed_m_s", 20.0);
+  const int count = rollrig_wheel_state_count(tire.get());
+  REQUIRE(count >= 3);
+  std::vector<double> states(static_cast<std::size_t>(count));
+  std::vector<double> rates(states.size());
+  REQUIRE(rollrig_wheel_get_states(tire.get(), states.data(), count) == ROLLRIG_OK);
+  REQUIRE(rollrig_wheel_get_rates(tire.get(), rates.data(), count) == ROLLRIG_OK);
+  CHECK(rates.back() == Approx(20.0 * get(tire, "rolling_resistance_N")));  // of the energy that is lost
+  states.front() += 10.0;
+  REQUIRE(rollrig_wheel_set_states(tire.get(), states.data(), count) == ROLLRIG_OK);
+  CHECK(get(tire, "liner_temperature_K") == Approx(states.front()));
+  const int known = rollrig_wheel_find_variable(tire.get(), "load_N");
+  const int unknown = rollrig_wheel_find_variable(tire.get(), "rolling_resistance_N");
+  const double one = 1.0;
+  double derivative = 0.0;
+  REQUIRE(rollrig_wheel_differentiate(tire.get(), &unknown, 1, &known, 1, &one, &derivative) == ROLLRIG_OK);
+  CHECK(derivative > 0.0);
+  CHECK(rollrig_wheel_variable_role(tire.get(), known) == std::string("input"));
+}
+
+TEST_CASE("the C API says what is wrong", "[fast]") {
+  CHECK(rollrig_wheel_create("a5", "road") == nullptr);
+  CHECK_THAT(rollrig_last_error(), Catch::Contains("a50"));
+  CHECK(rollrig_wheel_create(nullptr, nullptr) == nullptr);
+  CHECK(rollrig_wheel_create("not = a tire\n", "road") == nullptr);
+  CHECK_THAT(rollrig_last_error(), Catch::Contains("text of tires"));
+  const WheelPointer tire(rollrig_wheel_create("a50", "road"));
+  CHECK(rollrig_wheel_step(tire.get(), 1.0) == ROLLRIG_INPUT_ERROR);
+  CHECK(rollrig_wheel_find_variable(tire.get(), "speed") == -1);
+  CHECK(rollrig_wheel_set(tire.get(), -1, 1.0) == ROLLRIG_INPUT_ERROR);
+  CHECK(rollrig_wheel_set(tire.get(), 0, std::numeric_limits<double>::quiet_NaN()) == ROLLRIG_INPUT_ERROR);
+  CHECK_THAT(rollrig_last_error(), Catch::Contains("speed_m_s"));
+  CHECK(rollrig_wheel_variable_name(tire.get(), 100000) == nullptr);
+  CHECK(rollrig_wheel_get(nullptr, 0, nullptr) == ROLLRIG_INPUT_ERROR);
+  CHECK(rollrig_wheel_load(tire.get(), "abc", 3) == ROLLRIG_INPUT_ERROR);
+  CHECK(rollrig_run_carry_out("{\"scenari\": \"warm_up\"}") == nullptr);
+  CHECK_THAT(rollrig_last_error(), Catch::Contains("scenario"));
+  CHECK(rollrig_run_carry_out("[") == nullptr);
+  CHECK(rollrig_run_json(nullptr) == nullptr);
+}
+
+TEST_CASE("a whole test by the C API is that of the program", "[fast]") {
+  const RunPointer run(rollrig_run_carry_out(R"({"scenario": "warm_up", "tire": "a50", "fidelity": "quasi_static",
+                                                 "settings": {"speed_km_h": 100}})"));
+  INFO(rollrig_last_error());
+  REQUIRE(run != nullptr);
+  const rollrig::RunResult expected =
+      rollrig::Run({"warm_up", "a50", "", "", "quasi_static", "", "", "", {"speed_km_h=100"}}).carry_out();
+  CHECK(rollrig_run_json(run.get()) == expected.json);
+  const rollrig::Recording recording = expected.make_recording();
+  REQUIRE(rollrig_run_row_count(run.get()) == static_cast<int>(recording.time_s.size()));
+  REQUIRE(rollrig_run_channel_count(run.get()) == static_cast<int>(recording.channels.size()) + 1);
+  CHECK(rollrig_run_channel_name(run.get(), 0) == std::string("time_s"));
+  std::vector<double> values(recording.time_s.size());
+  REQUIRE(rollrig_run_get_channel(run.get(), 1, values.data(), static_cast<int>(values.size())) == ROLLRIG_OK);
+  CHECK(values == recording.channels.front().values);
+  CHECK(rollrig_run_get_channel(run.get(), 1, values.data(), 1) == ROLLRIG_INPUT_ERROR);
+}
+
+#ifdef ROLLRIG_EXAMPLE_WARM_TIRE
+TEST_CASE("the examples in C and Python warm the same tire", "[fast]") {
+  const ProgramResult c = rollrig::tests::run_other(ROLLRIG_EXAMPLE_WARM_TIRE, "");
+  INFO(c.err);
+  REQUIRE(c.status == 0);
+  CHECK_THAT(c.out, Catch::Contains("min  resistance N"));
+#ifndef ROLLRIG_SANITIZED  // Python does not bring their library
+  const std::string script = std::string(ROLLRIG_SOURCE_DIR) + "/examples/warm_tire.py ";
+  const ProgramResult python = rollrig::tests::run_other("/usr/bin/python3", script + ROLLRIG_LIBRARY);
+  INFO(python.err);
+  REQUIRE(python.status == 0);
+  CHECK(python.out == c.out);
+#endif
+}
+#endif

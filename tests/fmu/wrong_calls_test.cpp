@@ -1,0 +1,241 @@
+// Wrong calls of the FMU: fmi2Error and a message, never a crash.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/fmu/importer.h"
+
+using rollrig::tests::Fmi2;
+using rollrig::tests::LoadedFmu;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A wrong call must give fmi2Error and one message more.
+class WrongCalls {
+ public:
+  explicit WrongCalls(Fmi2& tire) : tire_(tire) {}
+  void expect_error(fmi2Status status) {
+    CHECK(status == fmi2Error);
+    CHECK(tire_.messages.size() == told_ + 1);
+    told_ = tire_.messages.size();
+  }
+
+ private:
+  Fmi2& tire_;
+  std::size_t told_ = tire_.messages.size();
+};
+
+}  // namespace
+
+TEST_CASE("calls out of order are refused with a message", "[fast]") {
+  const LoadedFmu fmu("a50");
+  Fmi2 tire(fmu, fmi2CoSimulation);
+  WrongCalls wrong(tire);
+  fmi2EventInfo info;
+  wrong.expect_error(FMI2(fmu, fmi2DoStep)(tire.component, 0.0, 1.0, fmi2True));
+  wrong.expect_error(FMI2(fmu, fmi2ExitInitializationMode)(tire.component));
+  wrong.expect_error(FMI2(fmu, fmi2Terminate)(tire.component));
+  tire.initialize();
+  wrong.expect_error(FMI2(fmu, fmi2EnterInitializationMode)(tire.component));
+  wrong.expect_error(FMI2(fmu, fmi2SetupExperiment)(tire.component, fmi2False, 0.0, 0.0, fmi2False, 0.0));
+  wrong.expect_error(FMI2(fmu, fmi2NewDiscreteStates)(tire.component, &info));  // of model exchange
+  wrong.expect_error(FMI2(fmu, fmi2SetTime)(tire.component, 1.0));
+  wrong.expect_error(FMI2(fmu, fmi2DoStep)(tire.component, 5.0, 1.0, fmi2True));  // time is 0
+  CHECK_THAT(tire.messages.back(), Catch::Contains("fmi2DoStep") && Catch::Contains("0 s"));
+  REQUIRE(FMI2(fmu, fmi2Terminate)(tire.component) == fmi2OK);
+  wrong.expect_error(FMI2(fmu, fmi2DoStep)(tire.component, 0.0, 1.0, fmi2True));
+  REQUIRE(FMI2(fmu, fmi2Reset)(tire.component) == fmi2OK);
+  tire.initialize();
+  tire.step(0.0, 1.0);
+  CHECK(FMI2(fmu, fmi2DoStep)(nullptr, 0.0, 1.0, fmi2True) == fmi2Error);
+}
+
+TEST_CASE("wrong values, variables and types are refused with a message that names them", "[fast]") {
+  const LoadedFmu fmu("a50");
+  Fmi2 tire(fmu, fmi2CoSimulation);
+  WrongCalls wrong(tire);
+  const auto set = [&](const char* name, double value) {
+    const unsigned reference = fmu.description().find(name);
+    return FMI2(fmu, fmi2SetReal)(tire.component, &reference, 1, &value);
+  };
+  wrong.expect_error(set("speed_m_s", kNaN));
+  CHECK_THAT(tire.messages.back(), Catch::Contains("speed_m_s") && Catch::Contains("nan"));
+  wrong.expect_error(set("load_N", -1.0));
+  CHECK_THAT(tire.messages.back(), Catch::Contains(">= 0"));
+  wrong.expect_error(set("thermal.heat_capacity_J_per_K", 0.0));
+  wrong.expect_error(set("liner_temperature_K", 300.0));  // not an input
+  wrong.expect_error(FMI2(fmu, fmi2SetReal)(tire.component, nullptr, 1, nullptr));
+  const unsigned beyond = 10000;
+  double value = 1.0;
+  wrong.expect_error(FMI2(fmu, fmi2GetReal)(tire.component, &beyond, 1, &value));
+  fmi2Integer whole = 1;
+  const unsigned speed = fmu.description().find("speed_m_s");
+  wrong.expect_error(FMI2(fmu, fmi2GetInteger)(tire.component, &speed, 1, &whole));
+  REQUIRE(set("geometry.rim_diameter_m", 2.0) == fmi2OK);  // wrong beside the outer diameter alone
+  REQUIRE(FMI2(fmu, fmi2EnterInitializationMode)(tire.component) == fmi2OK);
+  wrong.expect_error(FMI2(fmu, fmi2ExitInitializationMode)(tire.component));
+  CHECK_THAT(tire.messages.back(), Catch::Contains("geometry.rim_diameter_m"));
+  REQUIRE(set("geometry.rim_diameter_m", 0.48) == fmi2OK);
+  REQUIRE(FMI2(fmu, fmi2ExitInitializationMode)(tire.component) == fmi2OK);
+  wrong.expect_error(set("geometry.rim_diameter_m", 0.4));  // too late
+  wrong.expect_error(FMI2(fmu, fmi2DoStep)(tire.component, 0.0, kNaN, fmi2True));
+  wrong.expect_error(FMI2(fmu, fmi2DoStep)(tire.component, 0.0, 0.0, fmi2True));
+  wrong.expect_error(FMI2(fmu, fmi2DoStep)(tire.component, 0.0, 1e300, fmi2True));
+  tire.step(0.0, 1.0);
+}
+
+TEST_CASE("several values are set all, or none", "[fast]") {
+  const LoadedFmu fmu("a50");
+  Fmi2 tire(fmu, fmi2CoSimulation);
+  const unsigned references[] = {fmu.description().find("speed_m_s"), fmu.description().find("load_N")};
+  const double values[] = {10.0, -1.0};
+  CHECK(FMI2(fmu, fmi2SetReal)(tire.component, references, 2, values) == fmi2Error);
+  CHECK(tire.get("speed_m_s") == 0.0);
+}
+
+TEST_CASE("an instance is made for the FMU's own description alone", "[fast]") {
+  const LoadedFmu fmu("a50");
+  const auto make = FMI2(fmu, fmi2Instantiate);
+  CHECK(make("tire", fmi2CoSimulation, "{another}", nullptr, nullptr, 0, 0) == nullptr);
+  CHECK(make(nullptr, fmi2CoSimulation, fmu.description().token.c_str(), nullptr, nullptr, 0, 0) == nullptr);
+  CHECK(make("", fmi2CoSimulation, fmu.description().token.c_str(), nullptr, nullptr, 0, 0) == nullptr);
+  CHECK(make("tire", fmi2CoSimulation, nullptr, nullptr, nullptr, 0, 0) == nullptr);
+  const fmi2Component tire = make("tire", fmi2CoSimulation, fmu.description().token.c_str(), nullptr, nullptr, 0, 0);
+  CHECK(tire != nullptr);  // without callbacks
+  FMI2(fmu, fmi2FreeInstance)(tire);
+  FMI2(fmu, fmi2FreeInstance)(nullptr);
+}
+
+TEST_CASE("a hundred thousand random calls crash nothing and leave a tire that works", "[fast]") {
+  const LoadedFmu fmu("a50", "road", 2, {"slip_loss", "bearing_warmup"});
+  for (const fmi2Type type : {fmi2CoSimulation, fmi2ModelExchange}) {
+    Fmi2 tire(fmu, type);
+    const fmi2Component component = tire.component;
+    std::mt19937 random(type == fmi2CoSimulation ? 1 : 2);
+    const auto pick = [&random](std::size_t count) { return static_cast<std::size_t>(random() % count); };
+    const double numbers[] = {kNaN, HUGE_VAL, -HUGE_VAL, 0.0, -1.0, 1.0, 0.1, 25.0, 300.0, 5000.0, 1e300, 1e-300};
+    const auto number = [&] { return numbers[pick(std::size(numbers))]; };
+    const std::size_t variables = fmu.description().variables.size();
+    fmi2FMUstate states[3] = {};
+    std::vector<char> bytes;
+    int counts[6] = {};
+    std::size_t told = 0;
+    for (int call = 0; call < 50000; ++call) {
+      unsigned references[4];
+      double values[4];
+      double results[40] = {};
+      fmi2Integer orders[4];
+      for (int i = 0; i < 4; ++i) {
+        references[i] = static_cast<unsigned>(pick(variables + 3));
+        values[i] = number();
+        orders[i] = static_cast<fmi2Integer>(pick(3));
+      }
+      const std::size_t count = pick(5);
+      const unsigned* given = pick(20) == 0 ? nullptr : references;
+      fmi2FMUstate& state = states[pick(3)];
+      fmi2Status status = fmi2OK;
+      fmi2EventInfo info;
+      fmi2Boolean flags[2];
+      double time_s = 0.0;
+      FMI2(fmu, fmi2GetRealStatus)(component, fmi2LastSuccessfulTime, &time_s);
+      switch (pick(24)) {
+        case 0:
+          status = FMI2(fmu, fmi2SetupExperiment)(component, fmi2True, number(), number(), fmi2False, number());
+          break;
+        case 1:
+          status = FMI2(fmu, fmi2EnterInitializationMode)(component);
+          break;
+        case 2:
+          status = FMI2(fmu, fmi2ExitInitializationMode)(component);
+          break;
+        case 3:
+          if (pick(10) == 0) status = FMI2(fmu, fmi2Terminate)(component);
+          break;
+        case 4:
+          if (pick(10) == 0) status = FMI2(fmu, fmi2Reset)(component);
+          break;
+        case 5:
+        case 6:
+          status = FMI2(fmu, fmi2SetReal)(component, given, count, values);
+          break;
+        case 7:
+          status = FMI2(fmu, fmi2GetReal)(component, given, count, results);
+          break;
+        case 8:
+          status = FMI2(fmu, fmi2GetFMUstate)(component, &state);
+          break;
+        case 9:
+          status = FMI2(fmu, fmi2SetFMUstate)(component, state);
+          break;
+        case 10:
+          status = FMI2(fmu, fmi2FreeFMUstate)(component, &state);
+          break;
+        case 11: {
+          std::size_t size = 0;
+          status = FMI2(fmu, fmi2SerializedFMUstateSize)(component, state, &size);
+          bytes.resize(size + 1);
+          if (status == fmi2OK)
+            status = FMI2(fmu, fmi2SerializeFMUstate)(component, state, bytes.data(), pick(2) * size);
+          break;
+        }
+        case 12:
+          if (bytes.size() > 1 && pick(2) == 0) bytes[pick(bytes.size())] = static_cast<char>(random());
+          status =
+              FMI2(fmu, fmi2DeSerializeFMUstate)(component, bytes.data(), bytes.empty() ? 0 : bytes.size() - 1, &state);
+          break;
+        case 13:
+          status =
+              FMI2(fmu, fmi2GetDirectionalDerivative)(component, given, count, references, pick(5), values, results);
+          break;
+        case 14:
+          status = FMI2(fmu, fmi2EnterEventMode)(component);
+          break;
+        case 15:
+          status = FMI2(fmu, fmi2NewDiscreteStates)(component, &info);
+          break;
+        case 16:
+          status = FMI2(fmu, fmi2EnterContinuousTimeMode)(component);
+          break;
+        case 17:
+          status = FMI2(fmu, fmi2CompletedIntegratorStep)(component, fmi2True, &flags[0], &flags[1]);
+          break;
+        case 18:
+          status = FMI2(fmu, fmi2SetTime)(component, number());
+          break;
+        case 19: {
+          std::vector<double> continuous(pick(2) == 0 ? 6 : pick(8), 300.0);
+          if (!continuous.empty() && pick(2) == 0) continuous[pick(continuous.size())] = number();
+          status = FMI2(fmu, fmi2SetContinuousStates)(component, continuous.data(), continuous.size());
+          break;
+        }
+        case 20:
+          status = FMI2(fmu, fmi2GetDerivatives)(component, results, pick(8));
+          break;
+        case 21:
+          status = FMI2(fmu, fmi2SetRealInputDerivatives)(component, given, count, orders, values);
+          break;
+        default:
+          status = FMI2(fmu, fmi2DoStep)(component, pick(4) == 0 ? number() : time_s, number(), fmi2True);
+      }
+      ++counts[status];
+      if (status == fmi2Error) REQUIRE(tire.messages.size() > told);
+      told = tire.messages.size();
+    }
+    CHECK(counts[fmi2OK] > 5000);
+    CHECK(counts[fmi2Error] > 5000);
+    CHECK(counts[fmi2Fatal] == 0);
+    for (fmi2FMUstate& state : states) REQUIRE(FMI2(fmu, fmi2FreeFMUstate)(component, &state) == fmi2OK);
+
+    REQUIRE(FMI2(fmu, fmi2Reset)(component) == fmi2OK);
+    Fmi2 fresh(fmu, type);
+    for (Fmi2* one : {&tire, &fresh}) {
+      one->initialize();
+      one->set("speed_m_s", 20.0);
+    }
+    CHECK(tire.get("rolling_resistance_N") == fresh.get("rolling_resistance_N"));
+    CHECK(fresh.get("rolling_resistance_N") > 10.0);
+  }
+}
