@@ -61,3 +61,15 @@ string(REGEX REPLACE ".*\"(.*)\".*" "\\1" ROLLRIG_SUNDIALS_VERSION "${sundials_v
 if(ROLLRIG_SUNDIALS_VERSION VERSION_LESS 6.4)
   message(FATAL_ERROR "SUNDIALS 6.4 or newer is needed, found '${ROLLRIG_SUNDIALS_VERSION}'")
 endif()
+
+# The Python package, where it is wanted and can be built: not with a sanitizer, whose library Python does not load.
+set(ROLLRIG_PYTHON_FOUND OFF)
+if(ROLLRIG_BUILD_PYTHON AND NOT ROLLRIG_SANITIZE)
+  find_program(Python3_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)  # Debian's, which has its pybind11 and NumPy
+  find_package(Python3 3.11 COMPONENTS Interpreter Development.Module QUIET)
+  set(PYBIND11_FINDPYTHON ON)
+  find_package(pybind11 2.10 QUIET)
+  if(Python3_Development.Module_FOUND AND pybind11_FOUND)
+    set(ROLLRIG_PYTHON_FOUND ON)
+  endif()
+endif()

@@ -46,7 +46,8 @@ const std::vector<std::string> kOrder{"include/rollrig",
                                       "validation/generator",
                                       "validation/scoring",
                                       "validation/program",
-                                      "examples"};
+                                      "examples",
+                                      "python"};
 
 /// Includes of lower folders that are wrong nevertheless.
 const std::set<std::pair<std::string, std::string>> kForbidden{{"models", "sim"},
@@ -86,6 +87,7 @@ const std::map<std::string, std::set<std::string>> kPackages{
     {"libxml/", {"exports/xml.h"}},
     {"minizip/", {"exports/zip_archive.cpp"}},
     {"zlib.h", {"tables/mdf4_blocks.cpp"}},
+    {"pybind11/", {"python"}},
     {"matio.h", {"exports/mat_file.cpp", "tables/mat_table.cpp"}},
 };
 
@@ -106,7 +108,7 @@ std::size_t rank_of(const std::string& folder) {
 const std::vector<const char*> kTops{"include",   "sim",          "tables",     "models",    "rigs",
                                      "fmu",       "measurements", "estimation", "scenarios", "exports",
                                      "diagnosis", "comparison",   "validation", "report",    "campaigns",
-                                     "api",       "serve",        "cli",        "examples"};
+                                     "api",       "serve",        "cli",        "examples",  "python"};
 
 template <class Visit>
 void visit_includes(Visit&& visit) {
@@ -152,12 +154,12 @@ TEST_CASE("the independent generator includes nothing of the simulator", "[fast]
   CHECK(own > 20);
 }
 
-TEST_CASE("the command line and the examples use the API alone", "[fast]") {
+TEST_CASE("the command line, the examples and the Python package use the API alone", "[fast]") {
   int own = 0;
   visit_includes([&](const std::string& file, const std::string& included) {
     const std::string from = folder_of(file);
     const std::string to = folder_of(included);
-    if ((from != "cli" && from != "examples") || rank_of(to) == kOrder.size()) return;
+    if ((from != "cli" && from != "examples" && from != "python") || rank_of(to) == kOrder.size()) return;
     INFO(file << " includes " << included);
     CHECK((to == "include/rollrig" || (from == "cli" && kOfCommandLine.count(to) == 1)));
     ++own;

@@ -1,0 +1,174 @@
+"""Runs of a scenario, and their results."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from typing import Any, Union
+
+import numpy as np
+
+from . import _rollrig
+from .notebook import Progress, shown
+from .report import Report
+from .settings import make_run_input
+from .values import Channel, Value, to_channels, to_data_frame
+
+Name = Union[str, "os.PathLike[str]", None]
+Word = Union[Value, str, None]
+
+
+def to_words(listed: list[tuple[str, str, str, str, Any]]) -> dict[str, Word]:
+    """Values by name: numbers with their unit, words as they are."""
+    return {name: Value(value, unit, name, label, doc) if isinstance(value, float) else value
+            for name, label, unit, doc, value in listed}
+
+
+class Result(Report, Mapping[str, Word]):
+    """Results, records and recording of a run.
+
+    It is a mapping: result["rrc_25degC_2m_N_per_kN"] is a number with its unit. A word is a str, and what has no value
+    is None. Yes is 1 and no is 0.
+    """
+
+    _made: _rollrig.RunResult
+
+    @cached_property
+    def values_by_name(self) -> dict[str, Word]:
+        """Single results by name."""
+        return to_words(self._made.values)
+
+    @cached_property
+    def records(self) -> dict[str, list[dict[str, Word]]]:
+        """Lists of results by name: one record for each cycle, section or speed."""
+        return {name: [to_words(record) for record in listed] for name, (doc, listed) in self._made.records.items()}
+
+    @property
+    def warnings(self) -> list[str]:
+        return self._made.warnings
+
+    @property
+    def mechanical_closure(self) -> float:
+        """Of the energy audit: what does not close, over the work done."""
+        return self._made.mechanical_closure
+
+    @property
+    def thermal_closure(self) -> float:
+        return self._made.thermal_closure
+
+    @cached_property
+    def _recording(self) -> tuple[Any, Any, list[tuple[str, float, float]], list[tuple[str, str, Any]]]:
+        return self._made.make_recording()
+
+    @cached_property
+    def time_s(self) -> Channel:
+        """Times of the rows of the recording."""
+        return Channel(self._recording[0], "s", "time_s")
+
+    @cached_property
+    def channels(self) -> dict[str, Channel]:
+        """
+        :api Recording
+        """
+        return to_channels(self._recording[3])
+
+    @property
+    def phases(self) -> list[tuple[str, float, float]]:
+        """Name, start and end in s of each phase of the procedure."""
+        return self._recording[2]
+
+    @cached_property
+    def phase(self) -> np.ndarray[Any, Any]:
+        """Name of the phase of each row."""
+        return np.array([name for name, start_s, end_s in self.phases], dtype=object)[self._recording[1]]
+
+    def to_pandas(self) -> Any:
+        """The recording as a pandas.DataFrame over time_s; attrs["units"] has the unit of each column."""
+        columns = {"time_s": self.time_s, "phase": self.phase, **self.channels}
+        return to_data_frame(columns, {name: at.unit for name, at in self.channels.items()}, "time_s")
+
+    def write_set(self, folder: str | os.PathLike[str], force: bool = False) -> None:
+        """Writes the run as a measurement set. Raises ValueError for a scenario that writes none."""
+        if not self._made.write_set(os.fspath(folder), force):
+            raise ValueError(f"scenario '{self.data['scenario']}' writes no measurement set")
+
+    def __getitem__(self, name: str) -> Word:
+        return self.values_by_name[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.values_by_name)
+
+    def __len__(self) -> int:
+        return len(self.values_by_name)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
+
+class Run:
+    """
+    :api Run
+    """
+
+    def __init__(self, scenario: str | os.PathLike[str], *, tire: Name = None, rig: Name = None, vehicle: Name = None,
+                 fidelity: str | None = None, baseline: str | None = None, sensors: Name = None,
+                 seed: int | None = None, **settings: Any) -> None:
+        """
+        :members RunInput
+        * settings: any setting of the scenario by its name, such as pressure_kPa=210; describe(scenario) lists them.
+          A mapping changes a value of a file or an effect: effects={"bearing_warmup": {"fall_per_K": 0.02}}, or
+          **{"tire.thermal.heat_capacity_J_per_K": 12000}.
+        """
+        names = {"tire": tire, "rig": rig, "vehicle": vehicle, "fidelity": fidelity, "baseline": baseline,
+                 "sensors": sensors, "seed": seed}
+        self._run = _rollrig.Run(make_run_input(scenario, names, settings))
+
+    @property
+    def scenario(self) -> str:
+        """Name of the scenario."""
+        return self._run.scenario
+
+    @property
+    def writes_set(self) -> bool:
+        """Whether the scenario can write a measurement set."""
+        return self._run.writes_set
+
+    @property
+    def has_sensors(self) -> bool:
+        """Whether virtual sensors are there for it."""
+        return self._run.has_sensors
+
+    @property
+    def has_uncertainty(self) -> bool:
+        """Whether its results have an uncertainty budget."""
+        return self._run.has_uncertainty
+
+    def carry_out(self, *, progress: Progress = None, uncertainty: bool = False, monte_carlo: int = 0,
+                  threads: int = 0) -> Result:
+        """
+        :api Run::carry_out
+        * uncertainty: whether the uncertainty budget of the results is wanted.
+        * monte_carlo: number of trials that check it; 0: none.
+        """
+        options = {"budget": uncertainty, "monte_carlo_trials": monte_carlo, "threads": threads}
+        with shown(progress) as show:
+            return Result(self._run.carry_out(show, options))
+
+
+def run(scenario: str | os.PathLike[str], *, tire: Name = None, rig: Name = None, vehicle: Name = None,
+        fidelity: str | None = None, baseline: str | None = None, sensors: Name = None, seed: int | None = None,
+        progress: Progress = None, uncertainty: bool = False, monte_carlo: int = 0, **settings: Any) -> Result:
+    """Runs a scenario: rollrig.run("iso_28580", tire="a50", pressure_kPa=210).
+
+    :members RunInput
+    * settings: any setting of the scenario by its name, such as pressure_kPa=210; describe(scenario) lists them.
+      A mapping changes a value of a file or an effect: effects={"bearing_warmup": {"fall_per_K": 0.02}}, or
+      **{"tire.thermal.heat_capacity_J_per_K": 12000}.
+    * progress: True shows a bar, False none, None a bar in Jupyter; or a function of the share done and the stage.
+    * uncertainty: whether the uncertainty budget of the results is wanted.
+    * monte_carlo: number of trials that check it; 0: none.
+    """
+    prepared = Run(scenario, tire=tire, rig=rig, vehicle=vehicle, fidelity=fidelity, baseline=baseline,
+                   sensors=sensors, seed=seed, **settings)
+    return prepared.carry_out(progress=progress, uncertainty=uncertainty, monte_carlo=monte_carlo)

@@ -1,0 +1,32 @@
+"""What the tests of the Python package share."""
+
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["ROLLRIG_PROGRAM"]
+SOURCE = pathlib.Path(os.environ["ROLLRIG_SOURCE"])
+EXAMPLES = SOURCE / "assets" / "examples"
+
+
+def run_program(*words, folder=None):
+    """What the command line prints; the test fails where it fails."""
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, cwd=folder, check=False)
+    if done.returncode != 0:
+        raise AssertionError(f"rollrig {' '.join(map(str, words))}: {done.stderr}")
+    return done.stdout
+
+
+class InFolder(unittest.TestCase):
+    """Each test has a folder of its own."""
+
+    def setUp(self):
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        self.folder = pathlib.Path(made.name)
+
+    def read_files(self, name):
+        return {str(path.relative_to(self.folder / name)): path.read_text()
+                for path in (self.folder / name).rglob("*") if path.is_file()}
