@@ -36,7 +36,7 @@ class Headers:
             if found := COMMENT.match(line):
                 comment.append(found.group(1))
                 continue
-            if opening:
+            if opening and "}" not in line:
                 inside = opening.group(1)
             if line.startswith("}"):
                 inside = None
@@ -59,14 +59,15 @@ class Headers:
 
 
 def make_api(headers, name):
-    """The comment; a heading such as Errors begins a paragraph of its own."""
+    """The comment; a heading such as Errors begins a paragraph of its own. Examples are in C++ and left out."""
     paragraphs = [[]]
     for line in headers.comments[name]:
         if re.match(r"[A-Z]\w+  +\S", line):
             paragraphs.append([re.sub(r"  +", ": ", line, count=1)])
         else:
             paragraphs[-1].append(line.strip())
-    return "\n\n".join(textwrap.fill(" ".join(paragraph), WIDTH) for paragraph in paragraphs if paragraph)
+    texts = [" ".join(paragraph).replace("Throws ", "Raises ") for paragraph in paragraphs if paragraph]
+    return "\n\n".join(textwrap.fill(text, WIDTH) for text in texts if not text.startswith("Example: "))
 
 
 def make_members(headers, struct, arguments):
@@ -111,6 +112,8 @@ def main(header_folder, source_folder, target_folder):
     headers = Headers(header_folder)
     target = pathlib.Path(target_folder)
     target.mkdir(parents=True, exist_ok=True)
+    for former in target.glob("*.py"):
+        former.unlink()
     for source in sorted(pathlib.Path(source_folder).iterdir()):
         if source.suffix == ".py":
             (target / source.name).write_text(fill(headers, source.read_text()))

@@ -1,7 +1,30 @@
+#include <rollrig/assets.h>
+
+#include "arrays.h"
 #include "bindings.h"
+#include "text.h"
 
 namespace rollrig::python {
+namespace {
 
-void bind_assets(py::module_&) {}
+/// Sentences by name.
+py::dict to_dict(const std::vector<Listed>& listed) {
+  py::dict dict;
+  for (const Listed& at : listed) dict[to_str(at.name)] = to_str(at.summary);
+  return dict;
+}
+
+}  // namespace
+
+void bind_assets(py::module_& module) {
+  module.def("list_scenarios", [] { return to_dict(list_scenarios()); });
+  module.def("list_effects", [] { return to_dict(list_effects()); });
+  module.def("asset_folders", [] { return to_list(asset_folders()); });
+  module.def("list_assets", [](const std::string& folder) { return to_list(list_assets(folder)); });
+  module.def("find_asset",
+             [](const std::string& folder, const std::string& name) { return to_str(find_asset(folder, name)); });
+  module.def("find_assets_folder", [] { return to_str(find_assets_folder()); });
+  module.def("describe", [](const std::string& name) { return to_str(describe(name)); });
+}
 
 }  // namespace rollrig::python

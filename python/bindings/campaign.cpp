@@ -1,7 +1,79 @@
+#include <rollrig/item_campaign.h>
+
+#include "arrays.h"
 #include "bindings.h"
+#include "call.h"
+#include "run_input.h"
+#include "sweep_axes.h"
+#include "text.h"
 
 namespace rollrig::python {
+namespace {
 
-void bind_campaign(py::module_&) {}
+void define_runs(const std::string& folder, const py::dict& run, const py::dict& axes, const py::dict& options) {
+  RunCampaignInput input;
+  Keywords of_run(run);
+  read(of_run, input.run);
+  of_run.require_all_read();
+  input.axes = read_axes(axes);
+  Keywords keywords(options);
+  keywords.read("drawn", input.drawn).read("drawn_sd", input.drawn_sd).read("list", input.list);
+  keywords.read("design", input.design).read("points", input.points).require_all_read();
+  const py::gil_scoped_release released;
+  define_run_campaign(input, folder);
+}
+
+py::list define_diagnoses(const std::string& folder, const py::dict& options) {
+  DiagnosisCampaignInput input;
+  bool skip_bad_rows = false;
+  Keywords keywords(options);
+  keywords.read("sets", input.sets).read("only", input.only).read("without", input.without);
+  keywords.read("smallest_effect_percent", input.smallest_effect_percent).read("skip_bad_rows", skip_bad_rows);
+  keywords.require_all_read();
+  if (skip_bad_rows) input.bad_rows = BadRows::kLeaveOut;
+  return to_list(define_diagnosis_campaign(input, folder));
+}
+
+std::shared_ptr<CampaignState> carry_out_part(const ItemCampaign& campaign, const py::object& show,
+                                              const std::optional<std::string>& part, int threads) {
+  const CampaignPart wanted = part.has_value() ? read_campaign_part(*part) : CampaignPart{};
+  return std::make_shared<CampaignState>(
+      call(show, [&](const Progress& progress) { return campaign.carry_out(wanted, threads, progress); }));
+}
+
+py::str write_csv(const ItemCampaign& campaign) {
+  std::string table;
+  {
+    const py::gil_scoped_release released;
+    campaign.write_csv([&table](const std::string& rows) { table += rows; });
+  }
+  return to_str(table);
+}
+
+}  // namespace
+
+void bind_campaign(py::module_& module) {
+  py::class_<CampaignState, Report, std::shared_ptr<CampaignState>>(module, "CampaignState")
+      .def_readonly("items", &CampaignState::items)
+      .def_readonly("done", &CampaignState::done)
+      .def_readonly("failed", &CampaignState::failed);
+  py::class_<ItemCampaign>(module, "ItemCampaign")
+      .def(py::init<const std::string&>())
+      .def("carry_out", &carry_out_part)
+      .def("read_state", [](const ItemCampaign& at) { return std::make_shared<CampaignState>(at.read_state()); })
+      .def("merge", [](const ItemCampaign& at) { return std::make_shared<CampaignState>(at.merge()); })
+      .def("write_csv", &write_csv)
+      .def("calc_sensitivity",
+           [](const ItemCampaign& at, const std::string& result) {
+             return std::make_shared<Report>(
+                 call(py::none(), [&](const Progress&) { return at.calc_sensitivity(result); }));
+           })
+      .def("summarize_diagnoses", [](const ItemCampaign& at) {
+        return std::make_shared<Report>(call(py::none(), [&](const Progress&) { return at.summarize_diagnoses(); }));
+      });
+  module.def("campaign_designs", [] { return to_list(campaign_designs()); });
+  module.def("define_run_campaign", &define_runs);
+  module.def("define_diagnosis_campaign", &define_diagnoses);
+}
 
 }  // namespace rollrig::python

@@ -83,7 +83,7 @@ def shown(progress: Progress) -> Iterator[Show | None]:
     elif progress is False or (progress is None and not is_in_notebook()):
         yield None
     else:
-        bar = NotebookBar() if is_in_notebook() else TerminalLine()
+        bar: NotebookBar | TerminalLine = NotebookBar() if is_in_notebook() else TerminalLine()
         try:
             yield bar
         finally:

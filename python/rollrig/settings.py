@@ -16,7 +16,7 @@ def to_text(value: Any) -> str:
     if isinstance(value, float):
         return float.__repr__(value)
     if isinstance(value, (str, os.PathLike)):
-        return os.fspath(value)  # type: ignore[no-any-return]
+        return os.fspath(value)
     if isinstance(value, Iterable):
         return "[" + ",".join(_to_element(each) for each in value) + "]"
     return str(value)

@@ -27,6 +27,11 @@ class InFolder(unittest.TestCase):
         self.addCleanup(made.cleanup)
         self.folder = pathlib.Path(made.name)
 
+    def assert_same_files(self, made, told):
+        self.assertEqual(set(made), set(told))
+        for name, content in made.items():
+            self.assertTrue(content == told[name], name)  # a difference of long texts would take minutes to find
+
     def read_files(self, name):
         return {str(path.relative_to(self.folder / name)): path.read_text()
                 for path in (self.folder / name).rglob("*") if path.is_file()}

@@ -5,15 +5,18 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Any, Union
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, Union
 
 from . import _rollrig
 from .notebook import Progress, shown
 from .report import Report
 from .settings import make_run_input
-from .values import Channel, Value, to_channels, to_data_frame
+from .values import Value
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from .arrays import Channel
 
 Name = Union[str, "os.PathLike[str]", None]
 Word = Union[Value, str, None]
@@ -64,6 +67,8 @@ class Result(Report, Mapping[str, Word]):
     @cached_property
     def time_s(self) -> Channel:
         """Times of the rows of the recording."""
+        from .arrays import Channel
+
         return Channel(self._recording[0], "s", "time_s")
 
     @cached_property
@@ -71,6 +76,8 @@ class Result(Report, Mapping[str, Word]):
         """
         :api Recording
         """
+        from .arrays import to_channels
+
         return to_channels(self._recording[3])
 
     @property
@@ -81,10 +88,15 @@ class Result(Report, Mapping[str, Word]):
     @cached_property
     def phase(self) -> np.ndarray[Any, Any]:
         """Name of the phase of each row."""
-        return np.array([name for name, start_s, end_s in self.phases], dtype=object)[self._recording[1]]
+        import numpy as np
+
+        names = np.array([name for name, start_s, end_s in self.phases], dtype=object)
+        return np.asarray(names[self._recording[1]])
 
     def to_pandas(self) -> Any:
         """The recording as a pandas.DataFrame over time_s; attrs["units"] has the unit of each column."""
+        from .arrays import to_data_frame
+
         columns = {"time_s": self.time_s, "phase": self.phase, **self.channels}
         return to_data_frame(columns, {name: at.unit for name, at in self.channels.items()}, "time_s")
 

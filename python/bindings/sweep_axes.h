@@ -1,0 +1,28 @@
+#pragma once
+/// Settings that take several values.
+
+#include <pybind11/stl.h>
+#include <rollrig/sweep.h>
+
+#include <string>
+#include <vector>
+
+#include "bindings.h"
+
+namespace rollrig::python {
+
+/// By key a list of values, or a text such as "210:310:20". Throws InputError.
+inline std::vector<SweepAxis> read_axes(const py::dict& given) {
+  std::vector<SweepAxis> axes;
+  for (const auto& [name, values] : given) {
+    const std::string key = name.cast<std::string>();
+    if (py::isinstance<py::str>(values)) {
+      axes.push_back(read_sweep_axis(key + "=" + values.cast<std::string>()));
+    } else {
+      axes.push_back({key, values.cast<std::vector<std::string>>()});
+    }
+  }
+  return axes;
+}
+
+}  // namespace rollrig::python

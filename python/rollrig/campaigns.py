@@ -1,0 +1,126 @@
+"""Many runs, or many diagnoses, in a folder: shared among processes, and resumed where they stopped."""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from . import _rollrig
+from .notebook import Progress, shown
+from .report import Report
+from .runs import Name
+from .settings import make_run_input, take_given
+from .sweeps import Values, make_axes
+
+
+class CampaignState(Report):
+    """
+    :api CampaignState
+    """
+
+    _made: _rollrig.CampaignState
+
+    @property
+    def items(self) -> int:
+        return self._made.items
+
+    @property
+    def done(self) -> int:
+        """With those that failed."""
+        return self._made.done
+
+    @property
+    def failed(self) -> int:
+        return self._made.failed
+
+
+class Campaign:
+    """
+    :api ItemCampaign
+    """
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self._campaign = _rollrig.ItemCampaign(os.fspath(folder))
+
+    def run(self, *, part: str | None = None, threads: int = 0, progress: Progress = None) -> CampaignState:
+        """
+        :api ItemCampaign::carry_out
+        * part: "3/10" is the third of ten parts; None is all.
+        """
+        with shown(progress) as show:
+            return CampaignState(self._campaign.carry_out(show, part, threads))
+
+    @property
+    def state(self) -> CampaignState:
+        """
+        :api ItemCampaign::read_state
+        """
+        return CampaignState(self._campaign.read_state())
+
+    def merge(self) -> CampaignState:
+        """
+        :api ItemCampaign::merge
+        """
+        return CampaignState(self._campaign.merge())
+
+    def csv(self) -> str:
+        """
+        :api ItemCampaign::write_csv
+        """
+        return self._campaign.write_csv()
+
+    def to_pandas(self) -> Any:
+        """The table of csv() as a pandas.DataFrame over the items."""
+        import pandas
+
+        return pandas.read_csv(io.StringIO(self.csv()), index_col=0, float_precision="round_trip")
+
+    def sensitivity(self, result: str) -> Report:
+        """
+        :api ItemCampaign::calc_sensitivity
+        """
+        return Report(self._campaign.calc_sensitivity(result))
+
+    def summary(self) -> Report:
+        """
+        :api ItemCampaign::summarize_diagnoses
+        """
+        return Report(self._campaign.summarize_diagnoses())
+
+
+def new_campaign(folder: str | os.PathLike[str], scenario: str | os.PathLike[str], *,
+                 vary: Mapping[str, Values] | None = None, drawn: Sequence[str] = (), drawn_sd: Sequence[str] = (),
+                 list: str | os.PathLike[str] | None = None, design: str | None = None, points: int = 0,
+                 tire: Name = None, rig: Name = None, vehicle: Name = None, fidelity: str | None = None,
+                 baseline: str | None = None, sensors: Name = None, seed: int | None = None,
+                 **settings: Any) -> Campaign:
+    """
+    :api define_run_campaign
+
+    :members RunCampaignInput
+    :members RunInput
+    * vary: by name of a setting the values that it takes.
+    """
+    names = {"tire": tire, "rig": rig, "vehicle": vehicle, "fidelity": fidelity, "baseline": baseline,
+             "sensors": sensors, "seed": seed}
+    options = {"drawn": [*drawn], "drawn_sd": [*drawn_sd], "list": list, "design": design, "points": points}
+    _rollrig.define_run_campaign(os.fspath(folder), make_run_input(scenario, names, settings), make_axes(vary or {}),
+                                 take_given(options))
+    return Campaign(folder)
+
+
+def new_diagnosis_campaign(folder: str | os.PathLike[str], sets: Sequence[str | os.PathLike[str]], *,
+                           only: Sequence[str] = (), without: Sequence[str] = (),
+                           smallest_effect_percent: float | None = None, skip_bad_rows: bool = False) -> Campaign:
+    """
+    :api define_diagnosis_campaign
+
+    :members DiagnosisCampaignInput
+    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
+    """
+    options = {"sets": [os.fspath(each) for each in sets], "only": [*only], "without": [*without],
+               "smallest_effect_percent": smallest_effect_percent, "skip_bad_rows": skip_bad_rows}
+    _rollrig.define_diagnosis_campaign(os.fspath(folder), take_given(options))
+    return Campaign(folder)

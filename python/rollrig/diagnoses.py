@@ -1,0 +1,150 @@
+"""Why a measurement and the simulation differ."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+from . import _rollrig
+from .notebook import Progress, shown
+from .report import Report
+from .runs import Name
+from .sets import Folder, MeasurementSet, as_set
+from .settings import take_given
+
+
+class Diagnosis(Report):
+    """The diagnosis of one set. `data` has all that it finds, under the keys of docs/diagnosis.md."""
+
+    _made: _rollrig.Diagnosis
+
+    @property
+    def verdict(self) -> str:
+        """ "no_gap", "explained" or "unexplained"."""
+        return str(self.data["verdict"])
+
+    @property
+    def probability(self) -> dict[str, float]:
+        """Of "none", "unknown" and every effect in the comparison."""
+        return dict(self.data["probability"])
+
+    @property
+    def causes(self) -> list[dict[str, Any]]:
+        """The likeliest first: effects, probability, parameters with their intervals, and more."""
+        return list(self.data["causes"])
+
+    @property
+    def next_tests(self) -> list[dict[str, Any]]:
+        """Tests that would tell more, the best first."""
+        return list(self.data["next_test"])
+
+    def write_plan(self, folder: Folder, force: bool = False) -> bool:
+        """Writes the first proposed test as files for run(), with plan.txt. False: no test is proposed."""
+        return self._made.write_plan(os.fspath(folder), force)
+
+
+class Loop(Report):
+    """
+    :api Loop
+    """
+
+    def __init__(self, made: tuple[_rollrig.Report, list[str]]) -> None:
+        super().__init__(made[0])
+        self.missing = made[1]
+
+    @property
+    def state(self) -> str:
+        """ "waiting", "named", "hours_gone" or "nothing_to_test"."""
+        return str(self.data["state"])
+
+    @property
+    def tests(self) -> list[dict[str, Any]]:
+        """The tests of the loop, in their order."""
+        return list(self.data["tests"])
+
+    @property
+    def answers(self) -> list[dict[str, Any]]:
+        """What the diagnosis says after so many tests."""
+        return list(self.data["answers"])
+
+
+def diagnose(set: MeasurementSet | Folder, *, only: Sequence[str] = (), without: Sequence[str] = (),
+             smallest_effect_percent: float | None = None, threads: int = 0, skip_bad_rows: bool = False,
+             progress: Progress = None) -> Diagnosis:
+    """
+    :api diagnose
+
+    :members DiagnosisOptions
+    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
+    """
+    given = {"only": [*only], "without": [*without], "threads": threads,
+             "smallest_effect_percent": smallest_effect_percent}
+    with shown(progress) as show:
+        return Diagnosis(_rollrig.diagnose(show, as_set(set, skip_bad_rows)._set, take_given(given)))
+
+
+def diagnose_fleet(folders: Sequence[Folder], *, only: Sequence[str] = (), without: Sequence[str] = (),
+                   smallest_effect_percent: float | None = None, threads: int = 0, skip_bad_rows: bool = False,
+                   progress: Progress = None) -> Report:
+    """
+    :api diagnose_fleet
+
+    :members DiagnosisOptions
+    """
+    given = {"only": [*only], "without": [*without], "threads": threads,
+             "smallest_effect_percent": smallest_effect_percent}
+    with shown(progress) as show:
+        return Report(_rollrig.diagnose_fleet(show, [os.fspath(each) for each in folders], skip_bad_rows,
+                                              take_given(given)))
+
+
+def diagnose_pair(a: MeasurementSet | Folder, b: MeasurementSet | Folder, *, only: Sequence[str] = (),
+                  without: Sequence[str] = (), threads: int = 0, progress: Progress = None) -> Report:
+    """
+    :api diagnose_pair
+
+    :members DiagnosisOptions
+    """
+    given = {"only": [*only], "without": [*without], "threads": threads}
+    with shown(progress) as show:
+        return Report(_rollrig.diagnose_pair(show, as_set(a)._set, as_set(b)._set, given))
+
+
+def advance_loop(set: Folder, folder: Folder, *, hours: float | None = None, test_failed: bool = False,
+                 only: Sequence[str] = (), without: Sequence[str] = (),
+                 smallest_effect_percent: float | None = None, threads: int = 0, skip_bad_rows: bool = False,
+                 progress: Progress = None) -> Loop:
+    """
+    :api advance_loop
+
+    :members LoopInput
+    :members DiagnosisOptions
+    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
+    """
+    given = {"set": set, "folder": folder, "hours": hours, "test_failed": test_failed, "only": [*only],
+             "without": [*without], "threads": threads, "smallest_effect_percent": smallest_effect_percent,
+             "skip_bad_rows": skip_bad_rows}
+    with shown(progress) as show:
+        return Loop(_rollrig.advance_loop(show, take_given(given)))
+
+
+def plan_campaign(*, rig: Name = None, tire: Name = None, vehicle: Name = None, sensors: Name = None,
+                  hours: float | None = None, only: Sequence[str] = (), without: Sequence[str] = (),
+                  threads: int = 0, progress: Progress = None) -> Report:
+    """
+    :api plan_campaign
+
+    :members CampaignInput
+    """
+    given = {"rig": rig, "tire": tire, "vehicle": vehicle, "sensors": sensors, "hours": hours, "only": [*only],
+             "without": [*without], "threads": threads}
+    with shown(progress) as show:
+        return Report(_rollrig.plan_campaign(show, take_given(given)))
+
+
+def explain(effect: str) -> str:
+    """
+    :api explain_effect
+    """
+    return _rollrig.explain_effect(effect)

@@ -1,0 +1,150 @@
+"""Models from measurements."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+from . import _rollrig
+from .notebook import Progress, shown
+from .report import Report
+from .sets import Folder, MeasurementSet, as_set
+from .settings import take_given
+from .values import Estimate
+
+Abc = Sequence[float]
+
+
+class Fit(Report):
+    """A fitted model. `data` has its JSON (docs/formats.md), files() the file of the model."""
+
+    _made: _rollrig.Fit
+
+    @property
+    def parameters(self) -> dict[str, Estimate]:
+        """By name the value, its standard uncertainty and its interval of 95 %."""
+        return {listed[0]: Estimate(*listed) for listed in self._made.parameters}
+
+    @property
+    def warnings(self) -> list[str]:
+        return self._made.warnings
+
+    @property
+    def suspicion(self) -> str:
+        """Why columns, units or files cannot be what they are said to be; else empty."""
+        return self._made.suspicion
+
+
+def _asked(uncertainty: bool, monte_carlo: int, threads: int) -> dict[str, Any]:
+    return {"budget": uncertainty, "monte_carlo_trials": monte_carlo, "threads": threads}
+
+
+def fit_tire(set: MeasurementSet | Folder, *, name: str | None = None, load_map: bool = False, free_H: bool = False,
+             threads: int = 0, skip_bad_rows: bool = False, progress: Progress = None) -> Fit:
+    """A tire from warm-ups.
+
+    :api fit_tire
+
+    :members TireFitOptions
+    """
+    given = {"name": name, "load_map": load_map, "free_H": free_H, "threads": threads}
+    with shown(progress) as show:
+        return Fit(_rollrig.fit_tire(show, as_set(set, skip_bad_rows)._set, take_given(given)))
+
+
+def fit_road_load(file: Folder, *, mass_kg: float | None = None, rotating_mass_kg: float | None = None,
+                  drag_area_m2: float | None = None, reference_temperature_K: float | None = None,
+                  reference_pressure_Pa: float | None = None, rolling_fall_per_K: float | None = None,
+                  speed_from_m_s: float | None = None, speed_to_m_s: float | None = None,
+                  bin_width_m_s: float | None = None, bounds: tuple[Abc, Abc] | None = None,
+                  target: Abc | None = None, leave_out: Sequence[str] = (), recorded_vehicle: bool = False,
+                  sessions: Sequence[str] = (), skip_bad_rows: bool = False, uncertainty: bool = False,
+                  monte_carlo: int = 0, threads: int = 0, progress: Progress = None) -> Fit:
+    """A, B, C of a vehicle by least squares.
+
+    :api fit_road_load
+
+    :members RoadLoadFitOptions
+    """
+    given = {"mass_kg": mass_kg, "rotating_mass_kg": rotating_mass_kg, "drag_area_m2": drag_area_m2,
+             "reference_temperature_K": reference_temperature_K, "reference_pressure_Pa": reference_pressure_Pa,
+             "rolling_fall_per_K": rolling_fall_per_K, "speed_from_m_s": speed_from_m_s,
+             "speed_to_m_s": speed_to_m_s, "bin_width_m_s": bin_width_m_s, "bounds": bounds, "target": target,
+             "leave_out": [*leave_out], "recorded_vehicle": recorded_vehicle}
+    with shown(progress) as show:
+        return Fit(_rollrig.fit_road_load(show, os.fspath(file), "", [*sessions], skip_bad_rows,
+                                          _asked(uncertainty, monte_carlo, threads), take_given(given)))
+
+
+def evaluate_road_load(file: Folder, method: str, *, mass_kg: float | None = None,
+                       rotating_mass_kg: float | None = None, corrected_to_mass_kg: float | None = None,
+                       reference_temperature_K: float | None = None, reference_pressure_Pa: float | None = None,
+                       rolling_fall_per_K: float | None = None, speed_from_m_s: float | None = None,
+                       speed_to_m_s: float | None = None, yaw_degree: int | None = None,
+                       wheel_radius_m: float | None = None, sensor_accuracy: bool = True,
+                       leave_out: Sequence[str] = (), sessions: Sequence[str] = (), skip_bad_rows: bool = False,
+                       uncertainty: bool = False, monte_carlo: int = 0, threads: int = 0,
+                       progress: Progress = None) -> Fit:
+    """
+    :api evaluate_road_load
+
+    * method: "wltp", "j2263", "j1263" or "torque-meter".
+    :members RoadLoadProcedureOptions
+    """
+    given = {"mass_kg": mass_kg, "rotating_mass_kg": rotating_mass_kg, "corrected_to_mass_kg": corrected_to_mass_kg,
+             "reference_temperature_K": reference_temperature_K, "reference_pressure_Pa": reference_pressure_Pa,
+             "rolling_fall_per_K": rolling_fall_per_K, "speed_from_m_s": speed_from_m_s,
+             "speed_to_m_s": speed_to_m_s, "yaw_degree": yaw_degree, "wheel_radius_m": wheel_radius_m,
+             "sensor_accuracy": sensor_accuracy, "leave_out": [*leave_out]}
+    with shown(progress) as show:
+        return Fit(_rollrig.fit_road_load(show, os.fspath(file), method, [*sessions], skip_bad_rows,
+                                          _asked(uncertainty, monte_carlo, threads), take_given(given)))
+
+
+def default_road_load(*, mass_kg: float, width_m: float, height_m: float, tire_class: str | None = None,
+                      rrc_N_per_kN: float | None = None) -> Fit:
+    """
+    :api calc_default_road_load
+
+    :members DefaultRoadLoadOptions
+    """
+    given = {"mass_kg": mass_kg, "width_m": width_m, "height_m": height_m, "tire_class": tire_class,
+             "rrc_N_per_kN": rrc_N_per_kN}
+    return Fit(_rollrig.calc_default_road_load(take_given(given)))
+
+
+def fit_j2452(path: Folder, *, maximum_load_N: float | None = None, base_pressure_Pa: float | None = None,
+              warm_pressure: bool = False, urban_cycle: str | None = None, highway_cycle: str | None = None,
+              uncertainty: bool = False, monte_carlo: int = 0, threads: int = 0, progress: Progress = None) -> Fit:
+    """
+    :api fit_j2452
+
+    :members RollingLawOptions
+    """
+    given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa, "warm_pressure": warm_pressure,
+             "urban_cycle": urban_cycle, "highway_cycle": highway_cycle}
+    with shown(progress) as show:
+        return Fit(_rollrig.fit_law(show, "j2452", os.fspath(path), _asked(uncertainty, monte_carlo, threads),
+                                    take_given(given)))
+
+
+def fit_j1269(path: Folder, *, proportional: bool = False, maximum_load_N: float | None = None,
+              base_pressure_Pa: float | None = None, warm_pressure: bool = False, uncertainty: bool = False,
+              monte_carlo: int = 0, threads: int = 0, progress: Progress = None) -> Fit:
+    """
+    :api fit_j1269
+
+    :members RollingLawOptions
+    """
+    given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa, "warm_pressure": warm_pressure}
+    with shown(progress) as show:
+        return Fit(_rollrig.fit_law(show, "j1269_proportional" if proportional else "j1269", os.fspath(path),
+                                    _asked(uncertainty, monte_carlo, threads), take_given(given)))
+
+
+def fit_drum_coastdown(set: Folder, *, data: Folder = "", skip_bad_rows: bool = False) -> Report:
+    """
+    :api fit_drum_coastdown
+    """
+    return Report(_rollrig.fit_drum_coastdown(os.fspath(set), os.fspath(data), skip_bad_rows))

@@ -1,0 +1,115 @@
+"""What is made of results and measurements: comparison, label, conversion, alignment, export, regression."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+
+from . import _rollrig
+from .notebook import Progress, shown
+from .report import Report
+from .runs import Name
+from .sets import Folder
+from .settings import take_given
+
+
+def compare(compared: Sequence[Folder], *, scenario: str = "", skip_bad_rows: bool = False,
+            progress: Progress = None) -> Report:
+    """
+    :api compare
+
+    :members CompareInput
+    """
+    with shown(progress) as show:
+        return Report(_rollrig.compare(show, [os.fspath(each) for each in compared], scenario, skip_bad_rows))
+
+
+def label(*, rrc_N_per_kN: float | None = None, rrc_sd_N_per_kN: float | None = None, tire_class: str | None = None,
+          load_index: str | None = None, speed_symbol: str | None = None, is_severe_snow: bool = False,
+          tire: Name = None) -> Report:
+    """
+    :api make_label
+
+    :members LabelInput
+    """
+    return Report(_rollrig.make_label(take_given(locals())))
+
+
+def convert(*, force_N: float | None = None, rrc_N_per_kN: float | None = None,
+            measured: Mapping[str, float], wanted: Mapping[str, float], tire: Name = None,
+            pressure_exponent: float | None = None, load_exponent: float | None = None,
+            diameter_exponent: float | None = None, ambient_coefficient_per_K: float | None = None) -> Report:
+    """
+    :api convert_loss
+
+    * force_N, rrc_N_per_kN: the loss, as one of the two.
+    * measured, wanted: the conditions on both sides: drum_curvature_per_m (0 for the flat road), tire_diameter_m,
+      pressure_Pa (gauge), ambient_K, load_N. What is absent is the same on both sides.
+    :members ConversionInput
+    """
+    given = {"force_N": force_N, "rrc_N_per_kN": rrc_N_per_kN, "tire": tire, "pressure_exponent": pressure_exponent,
+             "load_exponent": load_exponent, "diameter_exponent": diameter_exponent,
+             "ambient_coefficient_per_K": ambient_coefficient_per_K}
+    return Report(_rollrig.convert_loss(take_given(given), dict(measured), dict(wanted)))
+
+
+def align(file: Folder, *, reference_values: Name = None, machine: str | None = None,
+          reference_machine: str | None = None, reference: tuple[float, float] | None = None,
+          preliminary: bool = False, first_excluded: bool = False, on: str | None = None,
+          machine_changed: str | None = None, uncertainty: bool = False, monte_carlo: int = 0,
+          progress: Progress = None) -> Report:
+    """
+    :api align
+
+    :members AlignmentInput
+    """
+    given = {"file": file, "reference_values": reference_values, "machine": machine,
+             "reference_machine": reference_machine, "reference": reference, "preliminary": preliminary,
+             "first_excluded": first_excluded, "on": on, "machine_changed": machine_changed}
+    with shown(progress) as show:
+        return Report(_rollrig.align(show, {"budget": uncertainty, "monte_carlo_trials": monte_carlo},
+                                     take_given(given)))
+
+
+def apply_alignment(alignment: Folder, rrc_N_per_kN: float, *, measurements: int = 1, on: str | None = None) -> Report:
+    """
+    :api apply_alignment
+
+    :members AlignedValueInput
+    """
+    return Report(_rollrig.apply_alignment(take_given(locals())))
+
+
+def export_mat(source: Folder, *, skip_bad_rows: bool = False) -> bytes:
+    """The bytes of a .mat file.
+
+    :api read_export
+    """
+    return _rollrig.export_bytes(os.fspath(source), True, skip_bad_rows)
+
+
+def export_hdf5(source: Folder, *, skip_bad_rows: bool = False) -> bytes:
+    """The bytes of an HDF5 file.
+
+    :api read_export
+    """
+    return _rollrig.export_bytes(os.fspath(source), False, skip_bad_rows)
+
+
+def vecto_tire(tire: str | os.PathLike[str], *, rrc_N_per_kN: float | None = None, manufacturer: str | None = None,
+               model: str | None = None, certification_number: str | None = None, date: str | None = None,
+               dimension: str | None = None) -> str:
+    """
+    :api make_vecto_tire
+
+    :members VectoTireInput
+    """
+    return _rollrig.make_vecto_tire(take_given(locals()))
+
+
+def regress(folder: Folder = "", *, threads: int = 0, progress: Progress = None) -> Report:
+    """
+    :api regress
+    """
+    with shown(progress) as show:
+        return Report(_rollrig.regress(show, os.fspath(folder), threads))

@@ -1,0 +1,133 @@
+"""Measurement sets, and the logs that become such sets."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
+
+from . import _rollrig
+from .report import Report
+from .runs import Name
+from .settings import take_given
+
+if TYPE_CHECKING:
+    from .arrays import Channel
+
+Folder = Union[str, "os.PathLike[str]"]
+
+
+class MeasuredRun:
+    """
+    :api MeasuredRun
+    """
+
+    def __init__(self, listed: tuple[Any, ...]) -> None:
+        from .arrays import Channel, to_channels
+
+        (self.id, self.session, self.initial_tire_temperature_K, self.cold_pressure_Pa, self.rest_before_s, time_s,
+         columns) = listed
+        self.time_s = Channel(time_s, "s", "time_s")
+        self.columns: dict[str, Channel] = to_channels(columns)
+
+    def to_pandas(self) -> Any:
+        """The columns as a pandas.DataFrame over time_s; attrs["units"] has the unit of each column."""
+        from .arrays import to_data_frame
+
+        return to_data_frame({"time_s": self.time_s, **self.columns},
+                             {name: at.unit for name, at in self.columns.items()}, "time_s")
+
+    def __repr__(self) -> str:
+        return f"MeasuredRun({self.id!r}, {len(self.time_s)} rows: {', '.join(self.columns)})"
+
+
+class MeasurementSet:
+    """
+    :api MeasurementSet
+    """
+
+    def __init__(self, folder: Folder, *, skip_bad_rows: bool = False) -> None:
+        self._set = _rollrig.MeasurementSet(os.fspath(folder), skip_bad_rows)
+
+    @property
+    def name(self) -> str:
+        return self._set.name
+
+    @property
+    def kind(self) -> str:
+        """
+        :api MeasurementSet::kind
+        """
+        return self._set.kind
+
+    @property
+    def tire(self) -> str:
+        """
+        :api MeasurementSet::tire
+        """
+        return self._set.tire
+
+    @cached_property
+    def runs(self) -> dict[str, MeasuredRun]:
+        """The runs by id."""
+        return {run.id: run for run in map(MeasuredRun, self._set.list_runs())}
+
+    def __repr__(self) -> str:
+        return f"MeasurementSet({self.name!r}, kind {self.kind}, tire {self.tire}, {len(self.runs)} runs)"
+
+
+def as_set(given: MeasurementSet | Folder, skip_bad_rows: bool = False) -> MeasurementSet:
+    return given if isinstance(given, MeasurementSet) else MeasurementSet(given, skip_bad_rows=skip_bad_rows)
+
+
+class FileCheck(NamedTuple):
+    """
+    :api FileCheck
+    """
+
+    what: str
+    warnings: list[str]
+    is_good: bool
+
+
+def validate(path: Folder, *, skip_bad_rows: bool = False) -> FileCheck:
+    """
+    :api check_file
+    """
+    return FileCheck(*_rollrig.check_file(os.fspath(path), skip_bad_rows))
+
+
+def find_sets(folder: Folder) -> list[str]:
+    """
+    :api find_sets
+    """
+    return _rollrig.find_sets(os.fspath(folder))
+
+
+def import_logs(mapping: Folder, *, data: Folder = "", skip_bad_rows: bool = False) -> Report:
+    """
+    :api import_logs
+    """
+    return Report(_rollrig.import_logs(os.fspath(mapping), os.fspath(data), skip_bad_rows))
+
+
+def import_folder(folder: Folder, out: Folder, *, tire: Name = None, rig: Name = None, vehicle: Name = None,
+                  sensors: Name = None, name: str | None = None, columns: Mapping[str, str] | None = None,
+                  units: Mapping[str, str] | None = None, values: Mapping[str, float] | None = None,
+                  date_order: str | None = None, cold_pressure_kPa: float | None = None,
+                  rests_min: Mapping[str, float] | None = None, skip_bad_rows: bool = False,
+                  force: bool = False) -> MeasurementSet:
+    """Makes a measurement set in the folder `out` from logs of which nothing is known, as `rollrig import --guess`.
+
+    :api import_guessed
+
+    :members GuessOptions
+    * force: whether a folder that holds files is written into.
+    """
+    given = {"folder": folder, "tire": tire, "rig": rig, "vehicle": vehicle, "sensors": sensors, "name": name,
+             "columns": columns and dict(columns), "units": units and dict(units), "values": values and dict(values),
+             "date_order": date_order, "cold_pressure_kPa": cold_pressure_kPa,
+             "rests_min": rests_min and dict(rests_min)}
+    Report(_rollrig.import_guessed(take_given(given), os.fspath(out), skip_bad_rows)).write(out, force)
+    return MeasurementSet(out, skip_bad_rows=skip_bad_rows)
