@@ -1,4 +1,4 @@
-# cpack: the Debian packages rollrig and rollrig-dev. cmake --workflow --preset package builds them.
+# cpack: the Debian packages rollrig, rollrig-dev and python3-rollrig. cmake --workflow --preset package builds them.
 set(ROLLRIG_MAINTAINER "the rollrig developers <rollrig@example.org>" CACHE STRING
   "Maintainer of the Debian packages; give your own where you publish them")
 set(package_version "${PROJECT_VERSION}-1")
@@ -32,6 +32,10 @@ function(rollrig_install_debian_files package component)
 endfunction()
 rollrig_install_debian_files(rollrig runtime)
 rollrig_install_debian_files(rollrig-dev development)
+rollrig_install_debian_files(python3-rollrig python)
+if(NOT ROLLRIG_PYTHON_FOUND)
+  message(FATAL_ERROR "The Debian packages need pybind11: tools/install_packages.sh packages_package.txt")
+endif()
 
 # The loader's cache follows the libraries by a trigger, and shlibs says to packages of others what to depend on.
 file(WRITE "${debian}/triggers" "activate-noawait ldconfig\n")
@@ -43,12 +47,13 @@ librollrig_multibody ${soversion} rollrig (= ${package_version})\n")
 # What cpack reads at its start. It would find the dependencies by itself, but then also write scripts that call
 # ldconfig, which a package must leave to the trigger.
 file(WRITE "${debian}/control" "")  # dpkg-shlibdeps does not start without
+math(EXPR next_python_minor "${Python3_VERSION_MINOR} + 1")
 configure_file("${templates}/cpack.cmake.in" "${debian}/cpack.cmake" @ONLY)
 set(CPACK_PROJECT_CONFIG_FILE "${debian}/cpack.cmake")
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "${ROLLRIG_MAINTAINER}")
-set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_COMPONENTS_ALL runtime development python)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_STRIP_FILES ON)
@@ -77,6 +82,17 @@ and on the road, with temperature-dependent tire loss.
 
 This package contains the headers of its C++ library, and the files by which
 CMake and pkg-config find it.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-rollrig)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${templates}/python/postinst;${templates}/python/prerm")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "virtual rolling-resistance laboratory (Python 3)
+rollrig simulates tire tests on multibody test rigs, and vehicles on rollers
+and on the road, with temperature-dependent tire loss.
+
+This package contains the Python package rollrig: runs, sweeps, fits and
+diagnoses, with results as NumPy arrays.")
 include(CPack)
 
 # ctest --preset package_test

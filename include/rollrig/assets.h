@@ -7,8 +7,8 @@
 #pragma GCC visibility push(default)
 namespace rollrig {
 
-/// Folder of the assets: $ROLLRIG_ASSETS, else share/rollrig/assets of the prefix in which the program is installed or,
-/// for a program of others, the library; else that of the source tree from which it was built.
+/// Folder of the assets: $ROLLRIG_ASSETS, else share/rollrig/assets of the prefix in which the library or else the
+/// program is installed; else that of the source tree from which it was built.
 std::string find_assets_folder();
 
 /// The file of an asset: `name_or_path` is a path when it holds a '/' or ends as the folder's files do

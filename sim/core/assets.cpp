@@ -54,7 +54,8 @@ std::string find_installed_assets(const fs::path& binary) {
 
 std::string find_assets_folder() {
   if (const char* set = std::getenv("ROLLRIG_ASSETS")) return set;
-  for (const fs::path& binary : {fs::path("/proc/self/exe"), find_library()}) {
+  // The library first: the program of a script is the interpreter, beside which another version may be installed.
+  for (const fs::path& binary : {find_library(), fs::path("/proc/self/exe")}) {
     std::string assets = find_installed_assets(binary);
     if (!assets.empty()) return assets;
   }

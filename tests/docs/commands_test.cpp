@@ -26,6 +26,8 @@ const std::vector<NotRun> kNotRun{
     {"./check", "installs packages, builds, and runs all tests, this one among them"},
     {"tools/install_packages.sh ", "installs packages"},
     {"apt-get install ", "installs packages"},
+    {"python3 -m venv ", "the wheel in a new environment is a test in tests/python"},
+    {"pip install ", "the wheel in a new environment is a test in tests/python"},
     {"podman ", "needs a program for containers, and makes an image"},
     {"cmake --", "configures, builds or installs the project"},
     {"ctest --", "runs the tests, this one among them"},

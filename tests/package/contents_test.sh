@@ -1,5 +1,5 @@
 #!/bin/sh
-# What is in the Debian packages: contents_test.sh FOLDER, the folder of both packages. Their names, what they depend on,
+# What is in the Debian packages: contents_test.sh FOLDER, the folder of the packages. Their names, what they depend on,
 # where files are, that binaries are stripped and hold no path of the build, and what lintian says where it is installed.
 # Exit status 77 where the packages are not built.
 set -eu
@@ -8,7 +8,8 @@ version=$(sed -n 's/^project(rollrig VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLis
 architecture=$(dpkg --print-architecture)
 program=$1/rollrig_$version-1_$architecture.deb
 library=$1/rollrig-dev_$version-1_$architecture.deb
-if [ ! -f "$program" ] || [ ! -f "$library" ]; then
+python=$1/python3-rollrig_$version-1_$architecture.deb
+if [ ! -f "$program" ] || [ ! -f "$library" ] || [ ! -f "$python" ]; then
   echo "packages: not built. To build them: cmake --workflow --preset package" >&2
   exit 77
 fi
@@ -34,6 +35,7 @@ expect_field "$program" Package rollrig
 expect_field "$library" Package rollrig-dev
 expect_field "$program" Version "$version-1"
 expect_field "$library" Depends "rollrig (= $version-1)"
+expect_field "$python" Package python3-rollrig
 
 # Shared libraries of Debian that the program cannot run without, and nothing that only the build needs.
 depends=$(dpkg-deb --field "$program" Depends)
@@ -47,7 +49,14 @@ case $depends in
   *-dev* | *mpi*) fail "rollrig depends on what it does not need: $depends" ;;
 esac
 
+# For one minor version of Python.
+depends=$(dpkg-deb --field "$python" Depends)
+case $depends in
+  "rollrig (= $version-1), python3 (>= 3."*"), python3 (<< 3."*"), python3-numpy, "*) ;;
+  *) fail "python3-rollrig depends on: $depends" ;;
+esac
 dpkg-deb --extract "$program" "$work/rollrig"
+dpkg-deb --extract "$python" "$work/python3-rollrig"
 dpkg-deb --extract "$library" "$work/rollrig-dev"
 triplet=$(dpkg-architecture -qDEB_HOST_MULTIARCH)
 for file in usr/bin/rollrig usr/bin/rollrig_serve "usr/lib/$triplet/librollrig.so.$version" "usr/lib/$triplet/librollrig_cvodes.so.$version" \
@@ -66,11 +75,14 @@ for file in usr/include/rollrig/rollrig.h "usr/lib/$triplet/librollrig.so" "usr/
     *) expect_file "$work/rollrig-dev" "$file" ;;
   esac
 done
+for file in __init__.py _rollrig.pyi py.typed; do
+  expect_file "$work/python3-rollrig" "usr/lib/python3/dist-packages/rollrig/$file"
+done
 (cd "$work/rollrig" && find . ! -type d | sort) >"$work/files"
 (cd "$work/rollrig-dev" && find . ! -type d | sort) >"$work/files-dev"
 both=$(comm -12 "$work/files" "$work/files-dev")
 [ -z "$both" ] || fail "in both packages: $both"
-for package in "$program" "$library"; do
+for package in "$program" "$library" "$python"; do
   others=$(dpkg-deb --contents "$package" | awk '$2 != "root/root" || $1 !~ /^(drwxr-xr-x|-rw-r--r--|-rwxr-xr-x|l)/')
   [ -z "$others" ] || fail "owner or permissions: $others"
 done
@@ -81,8 +93,10 @@ for name in $linked echarts zrender tslib; do
   grep -qi "$name" "$work/rollrig/usr/share/doc/rollrig/copyright" || fail "the copyright file does not name $name"
 done
 
+module=$(cd "$work/python3-rollrig/usr/lib/python3/dist-packages/rollrig" && echo _rollrig.*.so)
 for binary in usr/bin/rollrig usr/bin/rollrig_serve "usr/lib/$triplet/librollrig.so.$version" "usr/lib/$triplet/librollrig_cvodes.so.$version" \
-  "usr/lib/$triplet/librollrig_multibody.so.$version"; do
+  "usr/lib/$triplet/librollrig_multibody.so.$version" \
+  "../python3-rollrig/usr/lib/python3/dist-packages/rollrig/$module"; do
   sections=$(readelf --sections --wide "$work/rollrig/$binary")
   case $sections in
     *.symtab* | *.debug_*) fail "$binary is not stripped" ;;
@@ -92,13 +106,13 @@ for binary in usr/bin/rollrig usr/bin/rollrig_serve "usr/lib/$triplet/librollrig
     *RPATH* | *RUNPATH*) fail "$binary searches libraries in a folder of its own" ;;
   esac
 done
-places=$(grep -rlaF -e "$root" -e "$(cd "$1" && pwd)" "$work/rollrig" "$work/rollrig-dev" || true)
+places=$(grep -rlaF -e "$root" -e "$(cd "$1" && pwd)" "$work/rollrig" "$work/rollrig-dev" "$work/python3-rollrig" || true)
 [ -z "$places" ] || fail "hold a path of the build: $places"
 
 if command -v lintian >/dev/null 2>&1; then
-  lintian --allow-root --fail-on error,warning "$program" "$library" >&2 || fail "lintian has errors or warnings"
+  lintian --allow-root --fail-on error,warning "$program" "$library" "$python" >&2 || fail "lintian has errors or warnings"
 else
   echo "packages: lintian is not installed, so its checks are left out" >&2
 fi
 [ "$failures" -eq 0 ] || exit 1
-echo "packages: $(stat -c %s "$program") and $(stat -c %s "$library") bytes, as they should be"
+echo "packages: $(stat -c %s "$program") and $(stat -c %s "$library") and $(stat -c %s "$python") bytes, as they should be"

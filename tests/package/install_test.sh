@@ -1,6 +1,6 @@
 #!/bin/sh
 # In a fresh Debian 12, rollrig installs from its package, runs, serves programs of others, and leaves nothing behind:
-# BASE=DEBIAN install_test.sh FOLDER. FOLDER has both packages. DEBIAN is a minimal system, which is copied and not
+# BASE=DEBIAN install_test.sh FOLDER. FOLDER has the packages. DEBIAN is a minimal system, which is copied and not
 # changed; to make one: debootstrap --variant=minbase bookworm DEBIAN. Needs root and a mirror of Debian.
 # Exit status 77 where BASE is not set, the packages are not built, or the user is not root.
 set -eu
@@ -25,7 +25,7 @@ cp -ax "$BASE/." "$system"
 cp /etc/resolv.conf /etc/hosts "$system/etc/"
 mount -t proc proc "$system/proc"
 mkdir "$system/packages"
-cp "$1"/rollrig*.deb "$system/packages"
+cp "$1"/*rollrig*.deb "$system/packages"
 chmod 755 "$system"
 cp -r "$root/tests/install/program" "$system/root/program"
 
@@ -56,6 +56,14 @@ echo "packages: installed in $installed_s s, first result after $first_result_s 
 run_inside dpkg-query -W -f '${Package}: installed size ${Installed-Size} KiB\n' rollrig
 run_inside sh -c 'zcat /usr/share/man/man1/rollrig.1.gz' | grep -q iso_28580 || fail "the manual page is not readable"
 
+run_apt install "/packages/$(cd "$system/packages" && echo python3-rollrig_*.deb)"
+run_inside python3 -c '
+import rollrig
+result = rollrig.run("iso_28580", tire="a50")
+print(result["rrc_25degC_2m_N_per_kN"], result.channels["drum_torque_Nm"].unit)' >"$log" 2>&1 ||
+  fail "the Python package does not run"
+grep -q '^5\.20.* N/kN N m$' "$log" || fail "the Python package finds another rolling resistance"
+
 run_apt install g++ cmake make pkg-config "/packages/$(cd "$system/packages" && echo rollrig-dev_*.deb)"
 run_inside sh -euc '
   g++ -std=c++17 $(pkg-config --cflags rollrig) /root/program/main.cpp $(pkg-config --libs rollrig) -o /root/by_pkg_config
@@ -68,8 +76,8 @@ for program in by_pkg_config by_cmake/program_17_on by_cmake/program_17_off by_c
   grep -qx '/usr/share/rollrig/assets/tires/a50.toml' "$log" || fail "$program: assets from elsewhere"
 done
 
-run_inside dpkg -L rollrig rollrig-dev | grep / | sort -u >"$system/root/paths"
-run_apt purge rollrig rollrig-dev
+run_inside dpkg -L rollrig rollrig-dev python3-rollrig | grep / | sort -u >"$system/root/paths"
+run_apt purge rollrig rollrig-dev python3-rollrig
 while read -r path; do
   [ ! -e "$system$path" ] || run_inside dpkg -S "$path" >/dev/null 2>&1 || fail "left behind: $path"
 done <"$system/root/paths"

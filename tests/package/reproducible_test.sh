@@ -27,7 +27,7 @@ env CCACHE_DISABLE=1 TZ=Pacific/Chatham LC_ALL=C cmake --workflow --preset packa
   exit 1
 }
 status=0
-for package in "$first"/rollrig*.deb; do
+for package in "$first"/*rollrig*.deb; do
   again=$copy/build/package/$(basename "$package")
   sha256sum "$package" "$again"
   cmp "$package" "$again" || status=1
