@@ -8,7 +8,7 @@ namespace rollrig::python {
 namespace {
 
 /// Sentences by name.
-py::dict to_dict(const std::vector<Listed>& listed) {
+py::dict list_sentences(const std::vector<Listed>& listed) {
   py::dict dict;
   for (const Listed& at : listed) dict[to_str(at.name)] = to_str(at.summary);
   return dict;
@@ -17,8 +17,8 @@ py::dict to_dict(const std::vector<Listed>& listed) {
 }  // namespace
 
 void bind_assets(py::module_& module) {
-  module.def("list_scenarios", [] { return to_dict(list_scenarios()); });
-  module.def("list_effects", [] { return to_dict(list_effects()); });
+  module.def("list_scenarios", [] { return list_sentences(list_scenarios()); });
+  module.def("list_effects", [] { return list_sentences(list_effects()); });
   module.def("asset_folders", [] { return to_list(asset_folders()); });
   module.def("list_assets", [](const std::string& folder) { return to_list(list_assets(folder)); });
   module.def("find_asset",

@@ -37,7 +37,7 @@ py::list list_values(const std::vector<ResultValue>& values) {
 }
 
 /// By name the meaning and the records.
-py::dict to_dict(const std::vector<ResultRecords>& lists) {
+py::dict list_records(const std::vector<ResultRecords>& lists) {
   py::dict dict;
   for (const ResultRecords& at : lists) {
     py::list records;
@@ -67,7 +67,7 @@ py::tuple make_recording(const RunResult& result) {
 void bind_run(py::module_& module) {
   py::class_<RunResult, Report, std::shared_ptr<RunResult>>(module, "RunResult")
       .def_property_readonly("values", [](const RunResult& result) { return list_values(result.values); })
-      .def_property_readonly("records", [](const RunResult& result) { return to_dict(result.records); })
+      .def_property_readonly("records", [](const RunResult& result) { return list_records(result.records); })
       .def_property_readonly("warnings", [](const RunResult& result) { return to_list(result.warnings); })
       .def_readonly("mechanical_closure", &RunResult::mechanical_closure)
       .def_readonly("thermal_closure", &RunResult::thermal_closure)
