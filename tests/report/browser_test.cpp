@@ -119,7 +119,12 @@ TEST_CASE("page of a score", "[slow]") {
   const ValidationSetFolder made;
   REQUIRE(run_validation("run set --quiet", made.folder.path()).status == 0);
   REQUIRE(run_validation("score set --quiet --html page.html", made.folder.path()).status == 0);
-  check_page(made.folder.file("page.html"), "--charts 1");
+  const std::string page = made.folder.file("page.html");
+  check_page(page, "--charts 1");
+  const std::string boxes = std::string(ROLLRIG_SOURCE_DIR) + "/tests/report/check_boxes.mjs";
+  const ProgramResult checked = run_other(ROLLRIG_NODE, "'" + boxes + "' '" + page + "'");
+  INFO(checked.out << checked.err);
+  CHECK(checked.status == 0);
 }
 
 TEST_CASE("a page goes to standard output alone, and is refused where it cannot be", "[fast]") {
