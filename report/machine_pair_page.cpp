@@ -14,6 +14,10 @@ namespace {
 
 constexpr std::size_t kMostBars = 8;
 
+bool names_cause(const PairFindings& findings) {
+  return findings.verdict == PairVerdict::kExplained && !findings.causes.empty();
+}
+
 Block make_rrc_bars(const PairFindings& findings) {
   Json names = Json::array({"as measured"}), values = Json::array(), low = Json::array(), high = Json::array();
   const auto add = [&](const RrcEstimate& estimate) {
@@ -22,11 +26,11 @@ Block make_rrc_bars(const PairFindings& findings) {
     high.push_back(rounded(estimate.high_95_N_per_kN));
   };
   add(findings.difference);
-  if (findings.remaining.has_value()) {
-    names.push_back("with the first cause");
+  if (findings.remaining.has_value() && names_cause(findings)) {
+    names.push_back("the cause taken out");
     add(*findings.remaining);
   }
-  return make_bars({"RRc on A less that on B", "N/kN"}, names,
+  return make_bars({"RRc on A minus RRc on B", "N/kN"}, names,
                    {{{"name", "difference, 95 % interval"}, {"values", values}, {"low", low}, {"high", high}}});
 }
 
@@ -96,8 +100,7 @@ Block make_pair_tiles(const PairFindings& findings) {
        shows_none ? "no difference in RRc is shown; +- is the interval of 95 %" : "+- is the interval of 95 %",
        "",
        {"/rrc_difference/value_N_per_kN", "/rrc_difference/half_width_95_N_per_kN"}});
-  const bool is_explained = findings.verdict == PairVerdict::kExplained && !findings.causes.empty();
-  if (findings.remaining.has_value() && is_explained) {
+  if (findings.remaining.has_value() && names_cause(findings)) {
     tiles.push_back({"Left of it without the cause",
                      show(*findings.remaining),
                      "N/kN",
