@@ -1,4 +1,6 @@
-"""Copies the Python files of a folder and fills their doc strings from the C++ headers: fill_doc_strings.py HEADERS FROM TO.
+"""Copies the Python files of a folder and fills their doc strings from the C++ headers.
+
+Call: fill_doc_strings.py HEADERS FROM TO
 
 A line ":api NAME" of a doc string becomes the comment of a function, a struct or a class of the headers; of a member
 function, NAME is Class::member. A line ":members STRUCT" becomes a list of the function's arguments that are members
@@ -58,6 +60,14 @@ class Headers:
             comment = []
 
 
+def speak_python(text):
+    """The words of Python for those of C++."""
+    for cpp, python in [(r"\bThrows\b", "Raises"), (r"\bInterrupted\b", "KeyboardInterrupt"),
+                        (r"\b(empty|absent|none): ", "None: ")]:
+        text = re.sub(cpp, python, text)
+    return text
+
+
 def make_api(headers, name):
     """The comment; a heading such as Errors begins a paragraph of its own. Examples are in C++ and left out."""
     paragraphs = [[]]
@@ -66,7 +76,7 @@ def make_api(headers, name):
             paragraphs.append([re.sub(r"  +", ": ", line, count=1)])
         else:
             paragraphs[-1].append(line.strip())
-    texts = [" ".join(paragraph).replace("Throws ", "Raises ") for paragraph in paragraphs if paragraph]
+    texts = [speak_python(" ".join(paragraph)) for paragraph in paragraphs if paragraph]
     return "\n\n".join(textwrap.fill(text, WIDTH) for text in texts if not text.startswith("Example: "))
 
 
@@ -74,7 +84,7 @@ def make_members(headers, struct, arguments):
     lines = []
     for (owner, member), text in headers.members.items():
         if owner == struct and member in arguments and text:
-            lines.append(textwrap.fill(f"{member}: {text}", WIDTH, initial_indent="* ", subsequent_indent="  "))
+            lines.append(textwrap.fill(f"{member}: {speak_python(text)}", WIDTH, initial_indent="* ", subsequent_indent="  "))
     if not lines:
         raise SystemExit(f"fill_doc_strings: no argument is a member of {struct}")
     return "\n".join(lines)

@@ -53,7 +53,7 @@ struct ConvertedLoss : ConversionFactors, Report {
   Loss given, result;
 };
 
-/// Converts a loss. With from.load_N, `given` and `result` have both force and RRc.
+/// Converts a loss. If the load of the measurement is known, `given` and `result` have both force and RRc.
 /// Example  convert_loss({{32.0, {}}, {1.0, 0.7}, {0.0}}).result.force_N: from a drum of radius 1 m to the flat road
 /// Errors   InputError: not one loss; a value out of its range; a drum, pressure or temperature on one side alone; a
 ///          load or tire diameter in `to` alone; a drum without a tire diameter; an exponent or

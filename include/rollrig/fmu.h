@@ -9,9 +9,9 @@ namespace rollrig {
 
 struct FmuInput {
   std::string tire;                  // name of an asset, or a path
-  std::string rig = "road";          // likewise: what the tire rolls on
+  std::string rig = "road";          // what the tire rolls on: name of an asset, or a path
   std::vector<std::string> effects;  // ids of effects that are on; their sizes are parameters of the FMU
-  int fmi_version = 2;               // or 3
+  int fmi_version = 2;               // 2 or 3
 };
 
 /// The bytes of the FMU, for this kind of machine (64-bit Linux). The same input gives the same bytes.

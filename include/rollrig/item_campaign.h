@@ -28,11 +28,12 @@ struct RunCampaignInput {
   std::vector<std::string> drawn;     // "key=uniform:LOW:HIGH" or "key=normal:MEAN:SD"
   std::vector<std::string> drawn_sd;  // "tire", "rig", "vehicle": every number with an _sd in that file is normal
   std::string list;                   // CSV file of a list: a column for each setting, a row for each item
-  std::string design;                 // one of campaign_designs(); empty: grid, list, or monte_carlo where something is
-                                      // drawn
+  std::string design;                 // grid, list, monte_carlo, latin_hypercube, sobol, sobol_indices, morris; empty:
+                                      // grid, list, or monte_carlo where something is drawn
   std::size_t points = 0;             // of a design that draws
 };
 
+/// The names that `design` may have.
 std::vector<std::string> campaign_designs();
 
 /// What a campaign of diagnoses is made of.

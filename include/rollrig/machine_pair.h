@@ -62,8 +62,8 @@ struct PairFindings {
 struct PairDiagnosis : PairFindings, Report {};
 
 /// Finds the effect in which two machines differ. Both sets have the same tire file and the same kind of rig.
-/// `options`: budget and smallest_effect_percent do not count; `only` and `without` also take the names of
-/// list_machine_effects().
+/// `options`: budget and smallest_effect_percent do not count; `only` and `without` also take the effects that only a
+/// second machine shows: surface_roughness, drum_diameter, ambient_record, liner_record.
 /// Errors  InputError: another tire or kind of machine; the same set twice; a set of the road; an unknown effect
 PairDiagnosis diagnose_pair(const MeasurementSet& a, const MeasurementSet& b, const DiagnosisOptions& options = {});
 

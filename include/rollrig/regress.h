@@ -39,8 +39,8 @@ struct RegressionOptions {
   Progress progress = {};
 };
 
-/// Carries out all runs of a folder, that of the assets where it is empty, and compares them with their goldens. A run
-/// that is wrong or fails is noted in its status, and the others go on.
+/// Carries out all runs of a folder (empty: that of the assets), and compares them with their goldens. A run that is
+/// wrong or fails is noted in its status, and the others go on.
 /// Errors  InputError: no run files in the folder; Interrupted
 Regression regress(const std::string& folder = "", const RegressionOptions& options = {});
 

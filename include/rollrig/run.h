@@ -74,7 +74,8 @@ class Run {
   /// of range.
   void check(const UncertaintyOptions& uncertainty) const;
 
-  /// Throws RunFailure, Interrupted, and InputError as check() does.
+  /// Throws RunFailure, Interrupted, and InputError where an uncertainty is asked for that the results do not have, or
+  /// the number of trials is out of range.
   RunResult carry_out(const Progress& progress = {}, const UncertaintyOptions& uncertainty = {}) const;
 
  private:

@@ -33,6 +33,7 @@ class DocStrings(unittest.TestCase):
         for name in rollrig.__all__:
             doc = getattr(rollrig, name).__doc__
             self.assertTrue(doc and not doc.strip().startswith(":"), name)
+            self.assertNotRegex(doc, r"\b(Throws|Interrupted)\b|\b(empty|absent): ", name)
         self.assertIn("of ISO 28580", rollrig.new_tire.__doc__)
         self.assertIn("coastdowns on a road", rollrig.fit_road_load.__doc__)  # as include/rollrig/fit.h has it
 
