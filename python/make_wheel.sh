@@ -10,8 +10,8 @@ staging=$(mktemp -d)
 trap 'rm -rf "$staging"' EXIT
 cmake --install "$build" --component python_wheel --prefix "$staging" --strip >/dev/null
 
-# What every Linux has: the C and C++ libraries, with the loader.
-is_everywhere() {
+# What the target machine must have: glibc, libstdc++ and libgcc_s of Debian 12 or newer.
+is_on_target() {
   case $(basename "$1") in
     ld-linux* | libc.so.* | libm.so.* | libdl.so.* | libpthread.so.* | librt.so.* | libresolv.so.* | libgcc_s.so.* | \
       libstdc++.so.*) return 0 ;;
@@ -23,7 +23,7 @@ if [ "$bundle" = --bundle ]; then
   mkdir "$licenses"
   ldd "$staging"/rollrig/_rollrig.*.so "$staging"/rollrig/lib/* | awk '$2 == "=>" && $3 ~ /^\// { print $3 }' |
     sort -u | while read -r library; do
-    is_everywhere "$library" || [ -e "$staging/rollrig/lib/$(basename "$library")" ] && continue
+    is_on_target "$library" || [ -e "$staging/rollrig/lib/$(basename "$library")" ] && continue
     cp -L "$library" "$staging/rollrig/lib/"
     # By the name alone, since /lib is a link to /usr/lib.
     package=$(dpkg-query -S "*/$(basename "$(readlink -f "$library")")" | sed 's/:.*//; q')

@@ -19,7 +19,6 @@ py::dict list_sentences(const std::vector<Listed>& listed) {
 void bind_assets(py::module_& module) {
   module.def("list_scenarios", [] { return list_sentences(list_scenarios()); });
   module.def("list_effects", [] { return list_sentences(list_effects()); });
-  module.def("asset_folders", [] { return to_list(asset_folders()); });
   module.def("list_assets", [](const std::string& folder) { return to_list(list_assets(folder)); });
   module.def("find_asset",
              [](const std::string& folder, const std::string& name) { return to_str(find_asset(folder, name)); });

@@ -1,6 +1,7 @@
 #include <rollrig/item_campaign.h>
 
 #include "arrays.h"
+#include "bad_rows.h"
 #include "bindings.h"
 #include "call.h"
 #include "run_input.h"
@@ -12,9 +13,7 @@ namespace {
 
 void define_runs(const std::string& folder, const py::dict& run, const py::dict& axes, const py::dict& options) {
   RunCampaignInput input;
-  Keywords of_run(run);
-  read(of_run, input.run);
-  of_run.require_all_read();
+  input.run = read_run_input(run);
   input.axes = read_axes(axes);
   Keywords keywords(options);
   keywords.read("drawn", input.drawn).read("drawn_sd", input.drawn_sd).read("list", input.list);
@@ -30,8 +29,8 @@ py::list define_diagnoses(const std::string& folder, const py::dict& options) {
   keywords.read("sets", input.sets).read("only", input.only).read("without", input.without);
   keywords.read("smallest_effect_percent", input.smallest_effect_percent).read("skip_bad_rows", skip_bad_rows);
   keywords.require_all_read();
-  if (skip_bad_rows) input.bad_rows = BadRows::kLeaveOut;
-  return to_list(define_diagnosis_campaign(input, folder));
+  input.bad_rows = to_bad_rows(skip_bad_rows);
+  return to_list(call(py::none(), [&](const Progress&) { return define_diagnosis_campaign(input, folder); }));
 }
 
 std::shared_ptr<CampaignState> carry_out_part(const ItemCampaign& campaign, const py::object& show,
@@ -60,8 +59,14 @@ void bind_campaign(py::module_& module) {
   py::class_<ItemCampaign>(module, "ItemCampaign")
       .def(py::init<const std::string&>())
       .def("carry_out", &carry_out_part)
-      .def("read_state", [](const ItemCampaign& at) { return std::make_shared<CampaignState>(at.read_state()); })
-      .def("merge", [](const ItemCampaign& at) { return std::make_shared<CampaignState>(at.merge()); })
+      .def("read_state",
+           [](const ItemCampaign& at) {
+             return std::make_shared<CampaignState>(call(py::none(), [&](const Progress&) { return at.read_state(); }));
+           })
+      .def("merge",
+           [](const ItemCampaign& at) {
+             return std::make_shared<CampaignState>(call(py::none(), [&](const Progress&) { return at.merge(); }));
+           })
       .def("write_csv", &write_csv)
       .def("calc_sensitivity",
            [](const ItemCampaign& at, const std::string& result) {
@@ -71,7 +76,6 @@ void bind_campaign(py::module_& module) {
       .def("summarize_diagnoses", [](const ItemCampaign& at) {
         return std::make_shared<Report>(call(py::none(), [&](const Progress&) { return at.summarize_diagnoses(); }));
       });
-  module.def("campaign_designs", [] { return to_list(campaign_designs()); });
   module.def("define_run_campaign", &define_runs);
   module.def("define_diagnosis_campaign", &define_diagnoses);
 }

@@ -104,7 +104,7 @@ std::shared_ptr<Fit> fit_coastdowns(const py::object& show, const std::string& f
   }));
 }
 
-std::shared_ptr<Fit> find_default_road_load(const py::dict& given) {
+std::shared_ptr<Fit> calc_default_road_load_fit(const py::dict& given) {
   DefaultRoadLoadOptions options;
   Keywords keywords(given);
   keywords.read("mass_kg", options.mass_kg).read("width_m", options.width_m).read("height_m", options.height_m);
@@ -136,7 +136,7 @@ void bind_fits(py::module_& module) {
       .def_property_readonly("suspicion", [](const Fit& fit) { return to_str(fit.suspicion); });
   module.def("fit_tire", &fit_to_set);
   module.def("fit_road_load", &fit_coastdowns);
-  module.def("calc_default_road_load", &find_default_road_load);
+  module.def("calc_default_road_load", &calc_default_road_load_fit);
   module.def("fit_law", &fit_law);
   module.def("fit_drum_coastdown", [](const std::string& set, const std::string& data, bool skip_bad_rows) {
     return std::make_shared<Report>(

@@ -45,7 +45,7 @@ std::shared_ptr<Report> new_rig(const py::dict& given) {
   keywords.read("inertia_kg_m2", options.inertia_kg_m2).read("moving_mass_kg", options.moving_mass_kg);
   keywords.read("skim_load_N", options.skim_load_N).read("ambient_degC", options.ambient_degC);
   keywords.read("bearing_loss_N", options.bearing_loss_N).require_all_read();
-  return std::make_shared<NewFiles>(make_new_rig(options));
+  return std::make_shared<NewFiles>(call(py::none(), [&](const Progress&) { return make_new_rig(options); }));
 }
 
 std::shared_ptr<Report> new_vehicle(const py::dict& given) {
@@ -55,7 +55,7 @@ std::shared_ptr<Report> new_vehicle(const py::dict& given) {
   keywords.read("rotating_mass_kg", options.rotating_mass_kg).read("wheelbase_m", options.wheelbase_m);
   keywords.read("front_load_share", options.front_load_share).read("road_load", options.road_load);
   keywords.read("driven_axle", options.driven_axle).require_all_read();
-  return std::make_shared<NewFiles>(make_new_vehicle(options));
+  return std::make_shared<NewFiles>(call(py::none(), [&](const Progress&) { return make_new_vehicle(options); }));
 }
 
 std::shared_ptr<Report> import_folder(const py::dict& given, const std::string& folder, bool skip_bad_rows) {

@@ -1,8 +1,9 @@
-/// What is made of results: comparison, label, conversion, alignment, export, regression.
+/// What is made of results and files: comparison, label, conversion, alignment, exports, regression.
 #include <rollrig/align.h>
 #include <rollrig/compare.h>
 #include <rollrig/convert.h>
 #include <rollrig/export.h>
+#include <rollrig/fmu.h>
 #include <rollrig/label.h>
 #include <rollrig/regress.h>
 #include <rollrig/vecto.h>
@@ -24,7 +25,7 @@ std::shared_ptr<Report> compare_all(const py::object& show, const std::vector<st
   return std::make_shared<Comparison>(call(show, [&](const Progress& progress) { return compare(input, progress); }));
 }
 
-std::shared_ptr<Report> find_label(const py::dict& given) {
+std::shared_ptr<Report> make_tire_label(const py::dict& given) {
   LabelInput input;
   Keywords keywords(given);
   keywords.read("rrc_N_per_kN", input.rrc_N_per_kN).read("rrc_sd_N_per_kN", input.rrc_sd_N_per_kN);
@@ -83,6 +84,14 @@ py::bytes export_bytes(const std::string& source, bool is_mat, bool skip_bad_row
   return py::bytes(made);
 }
 
+py::bytes make_fmu_bytes(const py::dict& given) {
+  FmuInput input;
+  Keywords keywords(given);
+  keywords.read("tire", input.tire).read("rig", input.rig).read("effects", input.effects);
+  keywords.read("fmi_version", input.fmi_version).require_all_read();
+  return py::bytes(call(py::none(), [&](const Progress&) { return make_fmu(input); }));
+}
+
 py::str make_vecto(const py::dict& given) {
   VectoTireInput input;
   Keywords keywords(given);
@@ -102,11 +111,12 @@ std::shared_ptr<Report> regress_folder(const py::object& show, const std::string
 
 void bind_results(py::module_& module) {
   module.def("compare", &compare_all);
-  module.def("make_label", &find_label);
+  module.def("make_label", &make_tire_label);
   module.def("convert_loss", &convert);
   module.def("align", &align_machine);
   module.def("apply_alignment", &align_value);
   module.def("export_bytes", &export_bytes);
+  module.def("make_fmu", &make_fmu_bytes);
   module.def("make_vecto_tire", &make_vecto);
   module.def("regress", &regress_folder);
 }

@@ -10,10 +10,7 @@ namespace rollrig::python {
 namespace {
 
 Run make_run(const py::dict& given) {
-  RunInput input;
-  Keywords keywords(given);
-  read(keywords, input);
-  keywords.require_all_read();
+  const RunInput input = read_run_input(given);
   const py::gil_scoped_release released;
   return Run(input);
 }
@@ -82,7 +79,6 @@ void bind_run(py::module_& module) {
       .def_property_readonly("scenario", &Run::scenario)
       .def_property_readonly("writes_set", &Run::writes_set)
       .def_property_readonly("has_sensors", &Run::has_sensors)
-      .def_property_readonly("has_test_report", &Run::has_test_report)
       .def_property_readonly("has_uncertainty", &Run::has_uncertainty)
       .def("carry_out", &carry_out_run);
 }

@@ -8,10 +8,14 @@
 
 namespace rollrig::python {
 
-inline void read(Keywords& given, RunInput& input) {
-  given.read("scenario_or_file", input.scenario_or_file).read("tire", input.tire).read("rig", input.rig);
-  given.read("vehicle", input.vehicle).read("fidelity", input.fidelity).read("baseline", input.baseline);
-  given.read("sensors", input.sensors).read("seed", input.seed).read("settings", input.settings);
+inline RunInput read_run_input(const py::dict& given) {
+  RunInput input;
+  Keywords keywords(given);
+  keywords.read("scenario_or_file", input.scenario_or_file).read("tire", input.tire).read("rig", input.rig);
+  keywords.read("vehicle", input.vehicle).read("fidelity", input.fidelity).read("baseline", input.baseline);
+  keywords.read("sensors", input.sensors).read("seed", input.seed).read("settings", input.settings);
+  keywords.require_all_read();
+  return input;
 }
 
 inline UncertaintyOptions read_uncertainty(const py::dict& given) {

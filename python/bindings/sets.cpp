@@ -14,7 +14,8 @@ namespace {
 /// Id, session, temperature in K, cold pressure in Pa, rest before in s, times, columns of each.
 py::list list_runs(const MeasurementSet& set) {
   py::list list;
-  for (MeasuredRun& run : set.list_runs()) {
+  std::vector<MeasuredRun> runs = call(py::none(), [&](const Progress&) { return set.list_runs(); });
+  for (MeasuredRun& run : runs) {
     list.append(py::make_tuple(to_str(run.id), to_str(run.session), run.initial_tire_temperature_K,
                                run.cold_pressure_Pa, run.rest_before_s, to_array(std::move(run.time_s)),
                                to_list(std::move(run.columns))));
@@ -33,7 +34,7 @@ py::tuple check(const std::string& path, bool skip_bad_rows) {
 void bind_sets(py::module_& module) {
   py::class_<MeasurementSet>(module, "MeasurementSet")
       .def(py::init([](const std::string& folder, bool skip_bad_rows) {
-        return MeasurementSet(folder, to_bad_rows(skip_bad_rows));
+        return call(py::none(), [&](const Progress&) { return MeasurementSet(folder, to_bad_rows(skip_bad_rows)); });
       }))
       .def_property_readonly("name", [](const MeasurementSet& set) { return to_str(set.name()); })
       .def_property_readonly("kind", &MeasurementSet::kind)

@@ -13,9 +13,7 @@ namespace {
 std::shared_ptr<SweepResult> carry_out_sweep(const py::object& show, const py::dict& run, const py::dict& axes,
                                              const py::dict& options) {
   SweepInput input;
-  Keywords of_run(run);
-  read(of_run, input.run);
-  of_run.require_all_read();
+  input.run = read_run_input(run);
   input.axes = read_axes(axes);
   Keywords keywords(options);
   keywords.read("shown", input.shown).read("threads", input.threads).require_all_read();

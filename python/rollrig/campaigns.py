@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import _rollrig
-from .notebook import Progress, shown
+from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import make_run_input, take_given
+from .settings import PathLike, make_run_input, take_given
 from .sweeps import Values, make_axes
 
 
@@ -28,7 +28,7 @@ class CampaignState(Report):
 
     @property
     def done(self) -> int:
-        """With those that failed."""
+        """Number of items that are done, with those that failed."""
         return self._made.done
 
     @property
@@ -41,7 +41,7 @@ class Campaign:
     :api ItemCampaign
     """
 
-    def __init__(self, folder: str | os.PathLike[str]) -> None:
+    def __init__(self, folder: PathLike) -> None:
         self._campaign = _rollrig.ItemCampaign(os.fspath(folder))
 
     def run(self, *, part: str | None = None, threads: int = 0, progress: Progress = None) -> CampaignState:
@@ -49,7 +49,7 @@ class Campaign:
         :api ItemCampaign::carry_out
         * part: "3/10" is the third of ten parts; None is all.
         """
-        with shown(progress) as show:
+        with progress_display(progress) as show:
             return CampaignState(self._campaign.carry_out(show, part, threads))
 
     @property
@@ -90,9 +90,9 @@ class Campaign:
         return Report(self._campaign.summarize_diagnoses())
 
 
-def new_campaign(folder: str | os.PathLike[str], scenario: str | os.PathLike[str], *,
+def new_campaign(folder: PathLike, scenario: PathLike, *,
                  vary: Mapping[str, Values] | None = None, drawn: Sequence[str] = (), drawn_sd: Sequence[str] = (),
-                 list: str | os.PathLike[str] | None = None, design: str | None = None, points: int = 0,
+                 list: PathLike | None = None, design: str | None = None, points: int = 0,
                  tire: Name = None, rig: Name = None, vehicle: Name = None, fidelity: str | None = None,
                  baseline: str | None = None, sensors: Name = None, seed: int | None = None,
                  **settings: Any) -> Campaign:
@@ -111,7 +111,7 @@ def new_campaign(folder: str | os.PathLike[str], scenario: str | os.PathLike[str
     return Campaign(folder)
 
 
-def new_diagnosis_campaign(folder: str | os.PathLike[str], sets: Sequence[str | os.PathLike[str]], *,
+def new_diagnosis_campaign(folder: PathLike, sets: Sequence[PathLike], *,
                            only: Sequence[str] = (), without: Sequence[str] = (),
                            smallest_effect_percent: float | None = None, skip_bad_rows: bool = False) -> Campaign:
     """

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from . import _rollrig
-from .notebook import Progress, shown
+from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .sets import Folder, MeasurementSet, as_set
-from .settings import take_given
+from .sets import MeasurementSet, as_set
+from .settings import PathLike, take_given
 
 
 class Diagnosis(Report):
@@ -39,7 +39,7 @@ class Diagnosis(Report):
         """Tests that would tell more, the best first."""
         return list(self.data["next_test"])
 
-    def write_plan(self, folder: Folder, force: bool = False) -> bool:
+    def write_plan(self, folder: PathLike, force: bool = False) -> bool:
         """Writes the first proposed test as files for run(), with plan.txt. False: no test is proposed."""
         return self._made.write_plan(os.fspath(folder), force)
 
@@ -69,7 +69,7 @@ class Loop(Report):
         return list(self.data["answers"])
 
 
-def diagnose(set: MeasurementSet | Folder, *, only: Sequence[str] = (), without: Sequence[str] = (),
+def diagnose(set: MeasurementSet | PathLike, *, only: Sequence[str] = (), without: Sequence[str] = (),
              smallest_effect_percent: float | None = None, threads: int = 0, skip_bad_rows: bool = False,
              progress: Progress = None) -> Diagnosis:
     """
@@ -80,38 +80,42 @@ def diagnose(set: MeasurementSet | Folder, *, only: Sequence[str] = (), without:
     """
     given = {"only": [*only], "without": [*without], "threads": threads,
              "smallest_effect_percent": smallest_effect_percent}
-    with shown(progress) as show:
+    with progress_display(progress) as show:
         return Diagnosis(_rollrig.diagnose(show, as_set(set, skip_bad_rows)._set, take_given(given)))
 
 
-def diagnose_fleet(folders: Sequence[Folder], *, only: Sequence[str] = (), without: Sequence[str] = (),
+def diagnose_fleet(folders: Sequence[PathLike], *, only: Sequence[str] = (), without: Sequence[str] = (),
                    smallest_effect_percent: float | None = None, threads: int = 0, skip_bad_rows: bool = False,
                    progress: Progress = None) -> Report:
     """
     :api diagnose_fleet
 
     :members DiagnosisOptions
+    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
     given = {"only": [*only], "without": [*without], "threads": threads,
              "smallest_effect_percent": smallest_effect_percent}
-    with shown(progress) as show:
+    with progress_display(progress) as show:
         return Report(_rollrig.diagnose_fleet(show, [os.fspath(each) for each in folders], skip_bad_rows,
                                               take_given(given)))
 
 
-def diagnose_pair(a: MeasurementSet | Folder, b: MeasurementSet | Folder, *, only: Sequence[str] = (),
-                  without: Sequence[str] = (), threads: int = 0, progress: Progress = None) -> Report:
+def diagnose_pair(a: MeasurementSet | PathLike, b: MeasurementSet | PathLike, *, only: Sequence[str] = (),
+                  without: Sequence[str] = (), threads: int = 0, skip_bad_rows: bool = False,
+                  progress: Progress = None) -> Report:
     """
     :api diagnose_pair
 
     :members DiagnosisOptions
+    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
     given = {"only": [*only], "without": [*without], "threads": threads}
-    with shown(progress) as show:
-        return Report(_rollrig.diagnose_pair(show, as_set(a)._set, as_set(b)._set, given))
+    with progress_display(progress) as show:
+        return Report(_rollrig.diagnose_pair(show, as_set(a, skip_bad_rows)._set, as_set(b, skip_bad_rows)._set,
+                                             take_given(given)))
 
 
-def advance_loop(set: Folder, folder: Folder, *, hours: float | None = None, test_failed: bool = False,
+def advance_loop(set: PathLike, folder: PathLike, *, hours: float | None = None, test_failed: bool = False,
                  only: Sequence[str] = (), without: Sequence[str] = (),
                  smallest_effect_percent: float | None = None, threads: int = 0, skip_bad_rows: bool = False,
                  progress: Progress = None) -> Loop:
@@ -125,7 +129,7 @@ def advance_loop(set: Folder, folder: Folder, *, hours: float | None = None, tes
     given = {"set": set, "folder": folder, "hours": hours, "test_failed": test_failed, "only": [*only],
              "without": [*without], "threads": threads, "smallest_effect_percent": smallest_effect_percent,
              "skip_bad_rows": skip_bad_rows}
-    with shown(progress) as show:
+    with progress_display(progress) as show:
         return Loop(_rollrig.advance_loop(show, take_given(given)))
 
 
@@ -139,7 +143,7 @@ def plan_campaign(*, rig: Name = None, tire: Name = None, vehicle: Name = None, 
     """
     given = {"rig": rig, "tire": tire, "vehicle": vehicle, "sensors": sensors, "hours": hours, "only": [*only],
              "without": [*without], "threads": threads}
-    with shown(progress) as show:
+    with progress_display(progress) as show:
         return Report(_rollrig.plan_campaign(show, take_given(given)))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class Error(Exception):
-    """Whatever rollrig itself raises. Where the user's input is not at fault, all attributes but `what` are None."""
+    """Base of InputError and RunFailure. Attributes other than `what` are None except in an InputError."""
 
     what: str
     file: str | None = None
@@ -20,7 +20,7 @@ class Error(Exception):
 
 
 class InputError(Error, ValueError):
-    """A mistake in what the user gave; nothing is written.
+    """An error in what the user gave; nothing is written.
 
     The attributes are those of the messages on the command line: `what` is wrong, in one sentence; the `file` and the
     `line` in it ("--set" for settings); the `key`, its `value` as given, what is `allowed`, and the `nearest` known

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any
 
 from . import _rollrig
-from .notebook import Progress, shown
+from .notebook import Progress, progress_display
 from .report import Report
-from .sets import Folder, MeasurementSet, as_set
-from .settings import take_given
+from .sets import MeasurementSet, as_set
+from .settings import PathLike, make_uncertainty_options, take_given
 from .values import Estimate
 
 Abc = Sequence[float]
@@ -28,6 +27,7 @@ class Fit(Report):
 
     @property
     def warnings(self) -> list[str]:
+        """A sentence each."""
         return self._made.warnings
 
     @property
@@ -36,11 +36,7 @@ class Fit(Report):
         return self._made.suspicion
 
 
-def _asked(uncertainty: bool, monte_carlo: int, threads: int) -> dict[str, Any]:
-    return {"budget": uncertainty, "monte_carlo_trials": monte_carlo, "threads": threads}
-
-
-def fit_tire(set: MeasurementSet | Folder, *, name: str | None = None, load_map: bool = False, free_H: bool = False,
+def fit_tire(set: MeasurementSet | PathLike, *, name: str | None = None, load_map: bool = False, free_H: bool = False,
              threads: int = 0, skip_bad_rows: bool = False, progress: Progress = None) -> Fit:
     """A tire from warm-ups.
 
@@ -49,11 +45,11 @@ def fit_tire(set: MeasurementSet | Folder, *, name: str | None = None, load_map:
     :members TireFitOptions
     """
     given = {"name": name, "load_map": load_map, "free_H": free_H, "threads": threads}
-    with shown(progress) as show:
+    with progress_display(progress) as show:
         return Fit(_rollrig.fit_tire(show, as_set(set, skip_bad_rows)._set, take_given(given)))
 
 
-def fit_road_load(file: Folder, *, mass_kg: float | None = None, rotating_mass_kg: float | None = None,
+def fit_road_load(file: PathLike, *, mass_kg: float | None = None, rotating_mass_kg: float | None = None,
                   drag_area_m2: float | None = None, reference_temperature_K: float | None = None,
                   reference_pressure_Pa: float | None = None, rolling_fall_per_K: float | None = None,
                   speed_from_m_s: float | None = None, speed_to_m_s: float | None = None,
@@ -72,12 +68,13 @@ def fit_road_load(file: Folder, *, mass_kg: float | None = None, rotating_mass_k
              "rolling_fall_per_K": rolling_fall_per_K, "speed_from_m_s": speed_from_m_s,
              "speed_to_m_s": speed_to_m_s, "bin_width_m_s": bin_width_m_s, "bounds": bounds, "target": target,
              "leave_out": [*leave_out], "recorded_vehicle": recorded_vehicle}
-    with shown(progress) as show:
+    with progress_display(progress) as show:
         return Fit(_rollrig.fit_road_load(show, os.fspath(file), "", [*sessions], skip_bad_rows,
-                                          _asked(uncertainty, monte_carlo, threads), take_given(given)))
+                                          make_uncertainty_options(uncertainty, monte_carlo, threads),
+                                          take_given(given)))
 
 
-def evaluate_road_load(file: Folder, method: str, *, mass_kg: float | None = None,
+def evaluate_road_load(file: PathLike, method: str, *, mass_kg: float | None = None,
                        rotating_mass_kg: float | None = None, corrected_to_mass_kg: float | None = None,
                        reference_temperature_K: float | None = None, reference_pressure_Pa: float | None = None,
                        rolling_fall_per_K: float | None = None, speed_from_m_s: float | None = None,
@@ -97,9 +94,10 @@ def evaluate_road_load(file: Folder, method: str, *, mass_kg: float | None = Non
              "rolling_fall_per_K": rolling_fall_per_K, "speed_from_m_s": speed_from_m_s,
              "speed_to_m_s": speed_to_m_s, "yaw_degree": yaw_degree, "wheel_radius_m": wheel_radius_m,
              "sensor_accuracy": sensor_accuracy, "leave_out": [*leave_out]}
-    with shown(progress) as show:
+    with progress_display(progress) as show:
         return Fit(_rollrig.fit_road_load(show, os.fspath(file), method, [*sessions], skip_bad_rows,
-                                          _asked(uncertainty, monte_carlo, threads), take_given(given)))
+                                          make_uncertainty_options(uncertainty, monte_carlo, threads),
+                                          take_given(given)))
 
 
 def default_road_load(*, mass_kg: float, width_m: float, height_m: float, tire_class: str | None = None,
@@ -114,7 +112,7 @@ def default_road_load(*, mass_kg: float, width_m: float, height_m: float, tire_c
     return Fit(_rollrig.calc_default_road_load(take_given(given)))
 
 
-def fit_j2452(path: Folder, *, maximum_load_N: float | None = None, base_pressure_Pa: float | None = None,
+def fit_j2452(path: PathLike, *, maximum_load_N: float | None = None, base_pressure_Pa: float | None = None,
               warm_pressure: bool = False, urban_cycle: str | None = None, highway_cycle: str | None = None,
               uncertainty: bool = False, monte_carlo: int = 0, threads: int = 0, progress: Progress = None) -> Fit:
     """
@@ -124,12 +122,12 @@ def fit_j2452(path: Folder, *, maximum_load_N: float | None = None, base_pressur
     """
     given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa, "warm_pressure": warm_pressure,
              "urban_cycle": urban_cycle, "highway_cycle": highway_cycle}
-    with shown(progress) as show:
-        return Fit(_rollrig.fit_law(show, "j2452", os.fspath(path), _asked(uncertainty, monte_carlo, threads),
-                                    take_given(given)))
+    with progress_display(progress) as show:
+        return Fit(_rollrig.fit_law(show, "j2452", os.fspath(path),
+                                    make_uncertainty_options(uncertainty, monte_carlo, threads), take_given(given)))
 
 
-def fit_j1269(path: Folder, *, proportional: bool = False, maximum_load_N: float | None = None,
+def fit_j1269(path: PathLike, *, proportional: bool = False, maximum_load_N: float | None = None,
               base_pressure_Pa: float | None = None, warm_pressure: bool = False, uncertainty: bool = False,
               monte_carlo: int = 0, threads: int = 0, progress: Progress = None) -> Fit:
     """
@@ -138,13 +136,13 @@ def fit_j1269(path: Folder, *, proportional: bool = False, maximum_load_N: float
     :members RollingLawOptions
     """
     given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa, "warm_pressure": warm_pressure}
-    with shown(progress) as show:
+    with progress_display(progress) as show:
         return Fit(_rollrig.fit_law(show, "j1269_proportional" if proportional else "j1269", os.fspath(path),
-                                    _asked(uncertainty, monte_carlo, threads), take_given(given)))
+                                    make_uncertainty_options(uncertainty, monte_carlo, threads), take_given(given)))
 
 
-def fit_drum_coastdown(set: Folder, *, data: Folder = "", skip_bad_rows: bool = False) -> Report:
+def fit_drum_coastdown(set: PathLike, *, data: PathLike | None = None, skip_bad_rows: bool = False) -> Report:
     """
     :api fit_drum_coastdown
     """
-    return Report(_rollrig.fit_drum_coastdown(os.fspath(set), os.fspath(data), skip_bad_rows))
+    return Report(_rollrig.fit_drum_coastdown(os.fspath(set), os.fspath(data or ""), skip_bad_rows))

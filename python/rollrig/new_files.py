@@ -1,14 +1,16 @@
-"""Files for a user's own tire, rig and vehicle. write(folder) of what is returned writes the file."""
+"""Files for a user's own tire, rig, vehicle and logs. write(folder) of what is returned writes the file."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping
 from typing import Any
 
 from . import _rollrig
-from .notebook import Progress, shown
+from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import take_given
+from .settings import PathLike, take_given
 
 
 def new_tire(size: str, *, name: str | None = None, load_index: str | None = None, tire_class: str | None = None,
@@ -26,7 +28,7 @@ def new_tire(size: str, *, name: str | None = None, load_index: str | None = Non
     given = {"size": size, "name": name, "load_index": load_index and str(load_index), "tire_class": tire_class,
              "is_reinforced": is_reinforced, "rrc_N_per_kN": rrc_N_per_kN, "tir": tir,
              "rrc_sd_N_per_kN": rrc_sd_N_per_kN, "pressure_kPa": pressure_kPa, "speed_symbol": speed_symbol}
-    with shown(progress) as show:
+    with progress_display(progress) as show:
         return Report(_rollrig.make_new_tire(show, take_given(given), take_given({"folder": warm_up, **log})))
 
 
@@ -52,3 +54,23 @@ def new_vehicle(*, mass_kg: float, name: str | None = None, drag_area_m2: float 
     :members NewVehicleOptions
     """
     return Report(_rollrig.make_new_vehicle(take_given(locals())))
+
+
+def new_set(folder: PathLike, *, beside: PathLike | None = None, tire: Name = None, rig: Name = None,
+            vehicle: Name = None, sensors: Name = None, name: str | None = None,
+            columns: Mapping[str, str] | None = None, units: Mapping[str, str] | None = None,
+            values: Mapping[str, float] | None = None, date_order: str | None = None,
+            cold_pressure_kPa: float | None = None, rests_min: Mapping[str, float] | None = None) -> Report:
+    """A mapping for import_logs(), or a set.toml where the logs are files of a set as they are.
+
+    It is guessed from logs of which nothing is known, with a comment on each guess, as `rollrig new set` does.
+
+    :members GuessOptions
+    * beside: folder into which the file is to be written; None: that of the logs.
+    """
+    given = {"folder": folder, "tire": tire, "rig": rig, "vehicle": vehicle, "sensors": sensors, "name": name,
+             "columns": columns, "units": units, "values": values, "date_order": date_order,
+             "cold_pressure_kPa": cold_pressure_kPa, "rests_min": rests_min}
+    logs = os.fspath(folder)
+    of_file = beside if beside is not None else logs if os.path.isdir(logs) else os.path.dirname(logs)
+    return Report(_rollrig.guess_set(take_given(given), os.fspath(of_file)))

@@ -12,8 +12,8 @@ from typing import Any, Union
 
 Show = Callable[[float, str], object]
 Progress = Union[bool, Show, None]
-"""progress=: True shows a bar, False none, None (the default) a bar in Jupyter; or a function of the share that is
-done, 0 to 1 or NaN where it is not known, and of what is being done."""
+"""progress=: True shows a bar, False none; None (default) shows a bar in Jupyter alone. A function is called with the
+share done (0 to 1, NaN if unknown) and the stage as text."""
 
 FIRST_AFTER_S = 0.5  # Assumed: what ends sooner needs no bar
 
@@ -76,7 +76,7 @@ class TerminalLine:
 
 
 @contextlib.contextmanager
-def shown(progress: Progress) -> Iterator[Show | None]:
+def progress_display(progress: Progress) -> Iterator[Show | None]:
     """What the library calls with the progress of a call; None where nothing is to be shown."""
     if callable(progress):
         yield progress

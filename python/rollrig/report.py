@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from . import _rollrig, notebook
+from .settings import PathLike
 
 
 class Report:
@@ -38,7 +39,7 @@ class Report:
         """What --out writes into a folder: content by name."""
         return self._made.make_files()
 
-    def write(self, folder: str | os.PathLike[str], force: bool = False) -> None:
+    def write(self, folder: PathLike, force: bool = False) -> None:
         """
         :api write_folder
         """

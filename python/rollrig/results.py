@@ -1,4 +1,4 @@
-"""What is made of results and measurements: comparison, label, conversion, alignment, export, regression."""
+"""What is made of results and files: comparison, label, conversion, alignment, exports, regression."""
 
 from __future__ import annotations
 
@@ -6,22 +6,21 @@ import os
 from collections.abc import Mapping, Sequence
 
 from . import _rollrig
-from .notebook import Progress, shown
+from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .sets import Folder
-from .settings import take_given
+from .settings import PathLike, make_uncertainty_options, take_given
 
 
-def compare(compared: Sequence[Folder], *, scenario: str = "", skip_bad_rows: bool = False,
+def compare(compared: Sequence[PathLike], *, scenario: str | None = None, skip_bad_rows: bool = False,
             progress: Progress = None) -> Report:
     """
     :api compare
 
     :members CompareInput
     """
-    with shown(progress) as show:
-        return Report(_rollrig.compare(show, [os.fspath(each) for each in compared], scenario, skip_bad_rows))
+    with progress_display(progress) as show:
+        return Report(_rollrig.compare(show, [os.fspath(each) for each in compared], scenario or "", skip_bad_rows))
 
 
 def label(*, rrc_N_per_kN: float | None = None, rrc_sd_N_per_kN: float | None = None, tire_class: str | None = None,
@@ -53,7 +52,7 @@ def convert(*, force_N: float | None = None, rrc_N_per_kN: float | None = None,
     return Report(_rollrig.convert_loss(take_given(given), dict(measured), dict(wanted)))
 
 
-def align(file: Folder, *, reference_values: Name = None, machine: str | None = None,
+def align(file: PathLike, *, reference_values: Name = None, machine: str | None = None,
           reference_machine: str | None = None, reference: tuple[float, float] | None = None,
           preliminary: bool = False, first_excluded: bool = False, on: str | None = None,
           machine_changed: str | None = None, uncertainty: bool = False, monte_carlo: int = 0,
@@ -66,12 +65,12 @@ def align(file: Folder, *, reference_values: Name = None, machine: str | None = 
     given = {"file": file, "reference_values": reference_values, "machine": machine,
              "reference_machine": reference_machine, "reference": reference, "preliminary": preliminary,
              "first_excluded": first_excluded, "on": on, "machine_changed": machine_changed}
-    with shown(progress) as show:
-        return Report(_rollrig.align(show, {"budget": uncertainty, "monte_carlo_trials": monte_carlo},
-                                     take_given(given)))
+    with progress_display(progress) as show:
+        return Report(_rollrig.align(show, make_uncertainty_options(uncertainty, monte_carlo), take_given(given)))
 
 
-def apply_alignment(alignment: Folder, rrc_N_per_kN: float, *, measurements: int = 1, on: str | None = None) -> Report:
+def apply_alignment(alignment: PathLike, rrc_N_per_kN: float, *, measurements: int = 1,
+                    on: str | None = None) -> Report:
     """
     :api apply_alignment
 
@@ -80,7 +79,7 @@ def apply_alignment(alignment: Folder, rrc_N_per_kN: float, *, measurements: int
     return Report(_rollrig.apply_alignment(take_given(locals())))
 
 
-def export_mat(source: Folder, *, skip_bad_rows: bool = False) -> bytes:
+def export_mat(source: PathLike, *, skip_bad_rows: bool = False) -> bytes:
     """The bytes of a .mat file.
 
     :api read_export
@@ -88,7 +87,7 @@ def export_mat(source: Folder, *, skip_bad_rows: bool = False) -> bytes:
     return _rollrig.export_bytes(os.fspath(source), True, skip_bad_rows)
 
 
-def export_hdf5(source: Folder, *, skip_bad_rows: bool = False) -> bytes:
+def export_hdf5(source: PathLike, *, skip_bad_rows: bool = False) -> bytes:
     """The bytes of an HDF5 file.
 
     :api read_export
@@ -96,7 +95,17 @@ def export_hdf5(source: Folder, *, skip_bad_rows: bool = False) -> bytes:
     return _rollrig.export_bytes(os.fspath(source), False, skip_bad_rows)
 
 
-def vecto_tire(tire: str | os.PathLike[str], *, rrc_N_per_kN: float | None = None, manufacturer: str | None = None,
+def make_fmu(tire: PathLike, *, rig: PathLike = "road", effects: Sequence[str] = (), fmi_version: int = 2) -> bytes:
+    """
+    :api make_fmu
+
+    :members FmuInput
+    """
+    given = {"tire": tire, "rig": rig, "effects": [*effects], "fmi_version": fmi_version}
+    return _rollrig.make_fmu(take_given(given))
+
+
+def vecto_tire(tire: PathLike, *, rrc_N_per_kN: float | None = None, manufacturer: str | None = None,
                model: str | None = None, certification_number: str | None = None, date: str | None = None,
                dimension: str | None = None) -> str:
     """
@@ -107,9 +116,9 @@ def vecto_tire(tire: str | os.PathLike[str], *, rrc_N_per_kN: float | None = Non
     return _rollrig.make_vecto_tire(take_given(locals()))
 
 
-def regress(folder: Folder = "", *, threads: int = 0, progress: Progress = None) -> Report:
+def regress(folder: PathLike | None = None, *, threads: int = 0, progress: Progress = None) -> Report:
     """
     :api regress
     """
-    with shown(progress) as show:
-        return Report(_rollrig.regress(show, os.fspath(folder), threads))
+    with progress_display(progress) as show:
+        return Report(_rollrig.regress(show, os.fspath(folder or ""), threads))

@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _rollrig
-from .notebook import Progress, shown
+from .notebook import Progress, progress_display
 from .report import Report
-from .settings import make_run_input
+from .settings import PathLike, make_run_input, make_uncertainty_options
 from .values import Value
 
 if TYPE_CHECKING:
@@ -18,46 +18,48 @@ if TYPE_CHECKING:
 
     from .arrays import Channel
 
-Name = Union[str, "os.PathLike[str]", None]
-Word = Union[Value, str, None]
+Name = Optional[PathLike]
+ResultItem = Union[Value, str, None]
 
 
-def to_words(listed: list[tuple[str, str, str, str, Any]]) -> dict[str, Word]:
+def to_items(listed: list[tuple[str, str, str, str, Any]]) -> dict[str, ResultItem]:
     """Values by name: numbers with their unit, words as they are."""
     return {name: Value(value, unit, name, label, doc) if isinstance(value, float) else value
             for name, label, unit, doc, value in listed}
 
 
-class Result(Report, Mapping[str, Word]):
+class Result(Report, Mapping[str, ResultItem]):
     """Results, records and recording of a run.
 
     It is a mapping: result["rrc_25degC_2m_N_per_kN"] is a number with its unit. A word is a str, and what has no value
-    is None. Yes is 1 and no is 0.
+    is None. Answers to yes/no questions are 1 or 0.
     """
 
     _made: _rollrig.RunResult
 
     @cached_property
-    def values_by_name(self) -> dict[str, Word]:
-        """Single results by name."""
-        return to_words(self._made.values)
+    def values_by_name(self) -> dict[str, ResultItem]:
+        """Results that are one number or word, by name."""
+        return to_items(self._made.values)
 
     @cached_property
-    def records(self) -> dict[str, list[dict[str, Word]]]:
+    def records(self) -> dict[str, list[dict[str, ResultItem]]]:
         """Lists of results by name: one record for each cycle, section or speed."""
-        return {name: [to_words(record) for record in listed] for name, (doc, listed) in self._made.records.items()}
+        return {name: [to_items(record) for record in listed] for name, (doc, listed) in self._made.records.items()}
 
     @property
     def warnings(self) -> list[str]:
+        """A sentence each."""
         return self._made.warnings
 
     @property
     def mechanical_closure(self) -> float:
-        """Of the energy audit: what does not close, over the work done."""
+        """Error of the mechanical energy balance divided by the work done (a ratio)."""
         return self._made.mechanical_closure
 
     @property
     def thermal_closure(self) -> float:
+        """Error of the thermal energy balance divided by the work done (a ratio)."""
         return self._made.thermal_closure
 
     @cached_property
@@ -100,12 +102,12 @@ class Result(Report, Mapping[str, Word]):
         columns = {"time_s": self.time_s, "phase": self.phase, **self.channels}
         return to_data_frame(columns, {name: at.unit for name, at in self.channels.items()}, "time_s")
 
-    def write_set(self, folder: str | os.PathLike[str], force: bool = False) -> None:
+    def write_set(self, folder: PathLike, force: bool = False) -> None:
         """Writes the run as a measurement set. Raises ValueError for a scenario that writes none."""
         if not self._made.write_set(os.fspath(folder), force):
             raise ValueError(f"scenario '{self.data['scenario']}' writes no measurement set")
 
-    def __getitem__(self, name: str) -> Word:
+    def __getitem__(self, name: str) -> ResultItem:
         return self.values_by_name[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -123,13 +125,13 @@ class Run:
     :api Run
     """
 
-    def __init__(self, scenario: str | os.PathLike[str], *, tire: Name = None, rig: Name = None, vehicle: Name = None,
+    def __init__(self, scenario: PathLike, *, tire: Name = None, rig: Name = None, vehicle: Name = None,
                  fidelity: str | None = None, baseline: str | None = None, sensors: Name = None,
                  seed: int | None = None, **settings: Any) -> None:
         """
         :members RunInput
         * settings: any setting of the scenario by its name, such as pressure_kPa=210; describe(scenario) lists them.
-          A mapping changes a value of a file or an effect: effects={"bearing_warmup": {"fall_per_K": 0.02}}, or
+          A dict changes a value of a file or an effect: effects={"bearing_warmup": {"fall_per_K": 0.02}}, or
           **{"tire.thermal.heat_capacity_J_per_K": 12000}.
         """
         names = {"tire": tire, "rig": rig, "vehicle": vehicle, "fidelity": fidelity, "baseline": baseline,
@@ -163,21 +165,22 @@ class Run:
         * uncertainty: whether the uncertainty budget of the results is wanted.
         * monte_carlo: number of trials that check it; 0: none.
         """
-        options = {"budget": uncertainty, "monte_carlo_trials": monte_carlo, "threads": threads}
-        with shown(progress) as show:
+        options = make_uncertainty_options(uncertainty, monte_carlo, threads)
+        with progress_display(progress) as show:
             return Result(self._run.carry_out(show, options))
 
 
-def run(scenario: str | os.PathLike[str], *, tire: Name = None, rig: Name = None, vehicle: Name = None,
+def run(scenario: PathLike, *, tire: Name = None, rig: Name = None, vehicle: Name = None,
         fidelity: str | None = None, baseline: str | None = None, sensors: Name = None, seed: int | None = None,
         progress: Progress = None, uncertainty: bool = False, monte_carlo: int = 0, **settings: Any) -> Result:
     """Runs a scenario: rollrig.run("iso_28580", tire="a50", pressure_kPa=210).
 
     :members RunInput
     * settings: any setting of the scenario by its name, such as pressure_kPa=210; describe(scenario) lists them.
-      A mapping changes a value of a file or an effect: effects={"bearing_warmup": {"fall_per_K": 0.02}}, or
+      A dict changes a value of a file or an effect: effects={"bearing_warmup": {"fall_per_K": 0.02}}, or
       **{"tire.thermal.heat_capacity_J_per_K": 12000}.
-    * progress: True shows a bar, False none, None a bar in Jupyter; or a function of the share done and the stage.
+    * progress: True shows a bar, False none; None shows a bar in Jupyter alone. A function is called with the share
+      done (0 to 1, NaN if unknown) and the stage as text.
     * uncertainty: whether the uncertainty budget of the results is wanted.
     * monte_carlo: number of trials that check it; 0: none.
     """

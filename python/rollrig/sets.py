@@ -5,17 +5,15 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _rollrig
 from .report import Report
 from .runs import Name
-from .settings import take_given
+from .settings import PathLike, take_given
 
 if TYPE_CHECKING:
     from .arrays import Channel
-
-Folder = Union[str, "os.PathLike[str]"]
 
 
 class MeasuredRun:
@@ -47,7 +45,7 @@ class MeasurementSet:
     :api MeasurementSet
     """
 
-    def __init__(self, folder: Folder, *, skip_bad_rows: bool = False) -> None:
+    def __init__(self, folder: PathLike, *, skip_bad_rows: bool = False) -> None:
         self._set = _rollrig.MeasurementSet(os.fspath(folder), skip_bad_rows)
 
     @property
@@ -77,7 +75,7 @@ class MeasurementSet:
         return f"MeasurementSet({self.name!r}, kind {self.kind}, tire {self.tire}, {len(self.runs)} runs)"
 
 
-def as_set(given: MeasurementSet | Folder, skip_bad_rows: bool = False) -> MeasurementSet:
+def as_set(given: MeasurementSet | PathLike, skip_bad_rows: bool = False) -> MeasurementSet:
     return given if isinstance(given, MeasurementSet) else MeasurementSet(given, skip_bad_rows=skip_bad_rows)
 
 
@@ -91,28 +89,28 @@ class FileCheck(NamedTuple):
     is_good: bool
 
 
-def validate(path: Folder, *, skip_bad_rows: bool = False) -> FileCheck:
+def validate(path: PathLike, *, skip_bad_rows: bool = False) -> FileCheck:
     """
     :api check_file
     """
     return FileCheck(*_rollrig.check_file(os.fspath(path), skip_bad_rows))
 
 
-def find_sets(folder: Folder) -> list[str]:
+def find_sets(folder: PathLike) -> list[str]:
     """
     :api find_sets
     """
     return _rollrig.find_sets(os.fspath(folder))
 
 
-def import_logs(mapping: Folder, *, data: Folder = "", skip_bad_rows: bool = False) -> Report:
+def import_logs(mapping: PathLike, *, data: PathLike | None = None, skip_bad_rows: bool = False) -> Report:
     """
     :api import_logs
     """
-    return Report(_rollrig.import_logs(os.fspath(mapping), os.fspath(data), skip_bad_rows))
+    return Report(_rollrig.import_logs(os.fspath(mapping), os.fspath(data or ""), skip_bad_rows))
 
 
-def import_folder(folder: Folder, out: Folder, *, tire: Name = None, rig: Name = None, vehicle: Name = None,
+def import_folder(folder: PathLike, out: PathLike, *, tire: Name = None, rig: Name = None, vehicle: Name = None,
                   sensors: Name = None, name: str | None = None, columns: Mapping[str, str] | None = None,
                   units: Mapping[str, str] | None = None, values: Mapping[str, float] | None = None,
                   date_order: str | None = None, cold_pressure_kPa: float | None = None,
@@ -126,8 +124,7 @@ def import_folder(folder: Folder, out: Folder, *, tire: Name = None, rig: Name =
     * force: whether a folder that holds files is written into.
     """
     given = {"folder": folder, "tire": tire, "rig": rig, "vehicle": vehicle, "sensors": sensors, "name": name,
-             "columns": columns and dict(columns), "units": units and dict(units), "values": values and dict(values),
-             "date_order": date_order, "cold_pressure_kPa": cold_pressure_kPa,
-             "rests_min": rests_min and dict(rests_min)}
+             "columns": columns, "units": units, "values": values, "date_order": date_order,
+             "cold_pressure_kPa": cold_pressure_kPa, "rests_min": rests_min}
     Report(_rollrig.import_guessed(take_given(given), os.fspath(out), skip_bad_rows)).write(out, force)
     return MeasurementSet(out, skip_bad_rows=skip_bad_rows)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import Any, Union
+
+PathLike = Union[str, "os.PathLike[str]"]
 
 
 def to_text(value: Any) -> str:
@@ -36,12 +38,21 @@ def list_settings(settings: Mapping[str, Any], prefix: str = "") -> Iterator[str
 
 
 def take_given(arguments: Mapping[str, Any]) -> dict[str, Any]:
-    """Without what is None: of that, the library knows the default. Paths become text."""
-    return {key: os.fspath(value) if isinstance(value, os.PathLike) else value
-            for key, value in arguments.items() if value is not None}
+    """Without what is None: of that, the library knows the default. Paths become text, mappings become dicts."""
+    return {key: _to_plain(value) for key, value in arguments.items() if value is not None}
 
 
-def make_run_input(scenario: str | os.PathLike[str], names: Mapping[str, Any],
+def _to_plain(value: Any) -> Any:
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    return dict(value) if isinstance(value, Mapping) else value
+
+
+def make_uncertainty_options(uncertainty: bool, monte_carlo: int, threads: int = 0) -> dict[str, Any]:
+    return {"budget": uncertainty, "monte_carlo_trials": monte_carlo, "threads": threads}
+
+
+def make_run_input(scenario: PathLike, names: Mapping[str, Any],
                    settings: Mapping[str, Any]) -> dict[str, Any]:
     given = {key: to_text(value) for key, value in names.items() if value is not None}
     return {**given, "scenario_or_file": os.fspath(scenario), "settings": list(list_settings(settings))}

@@ -8,10 +8,10 @@ from functools import cached_property
 from typing import Any, Union
 
 from . import _rollrig
-from .notebook import Progress, shown
+from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import make_run_input, to_text
+from .settings import PathLike, make_run_input, to_text
 
 Values = Union[str, Sequence[Any], Any]
 """Of a setting: a list, a range or an array, or a text such as "210:310:20"."""
@@ -63,7 +63,7 @@ class SweepResult(Report):
         return self.results[name]
 
 
-def sweep(scenario: str | os.PathLike[str], *, vary: Mapping[str, Values], tire: Name = None, rig: Name = None,
+def sweep(scenario: PathLike, *, vary: Mapping[str, Values], tire: Name = None, rig: Name = None,
           vehicle: Name = None, fidelity: str | None = None, baseline: str | None = None, sensors: Name = None,
           seed: int | None = None, shown_results: Sequence[str] = (), threads: int = 0, progress: Progress = None,
           **settings: Any) -> SweepResult:
@@ -71,12 +71,12 @@ def sweep(scenario: str | os.PathLike[str], *, vary: Mapping[str, Values], tire:
 
     :members RunInput
     * vary: by name of a setting its values: a list, a range, an array, or a text such as "210:310:20"; also of "tire".
-    * shown_results: results in the tables and charts of the report; none: those that change.
+    * shown_results: results in the tables and charts of the report; where there are none, those that change.
     * threads: 0: as many as the machine has.
     """
     names = {"tire": tire, "rig": rig, "vehicle": vehicle, "fidelity": fidelity, "baseline": baseline,
              "sensors": sensors, "seed": seed}
     run = make_run_input(scenario, names, settings)
-    with shown(progress) as show:
+    with progress_display(progress) as show:
         return SweepResult(_rollrig.sweep(show, run, make_axes(vary),
                                           {"shown": list(shown_results), "threads": threads}))

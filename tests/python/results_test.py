@@ -139,6 +139,10 @@ class FurtherResults(InFolder):
         self.assertEqual(rollrig.export_hdf5(self.folder / "a"), (self.folder / "a.h5").read_bytes())
         run_program("export", "c3_315_80r22_5", "--vecto", "tire.xml", folder=self.folder)
         self.assertEqual(rollrig.vecto_tire("c3_315_80r22_5"), (self.folder / "tire.xml").read_text())
+        run_program("export", "fmu", "--tire", "a50", "--effects", "bearing_warmup", "--fmi", 3, "--out", "tire.fmu",
+                    folder=self.folder)
+        self.assertEqual(rollrig.make_fmu("a50", effects=["bearing_warmup"], fmi_version=3),
+                         (self.folder / "tire.fmu").read_bytes())
 
     def test_new_files(self):
         run_program("new", "tire", "--size", "205/55R16", "--load-index", 91, "--rrc", 8.2, "--out", "tire.toml",
@@ -148,6 +152,11 @@ class FurtherResults(InFolder):
         run_program("new", "rig", "--diameter", 1.7, "--out", "rig.toml", folder=self.folder)
         self.assertEqual(list(rollrig.new_rig(diameter_m=1.7).files().values()),
                          [(self.folder / "rig.toml").read_text()])
+        known = {"tire": EXAMPLES / "hidden_effect" / "tire.toml", "rig": EXAMPLES / "hidden_effect" / "rig.toml"}
+        run_program("new", "set", EXAMPLES / "own_logs", "--tire", known["tire"], "--rig", known["rig"], "--out",
+                    self.folder / "import.toml")
+        guessed = rollrig.new_set(EXAMPLES / "own_logs", beside=self.folder, **known)
+        self.assertEqual(guessed.files(), {"import.toml": (self.folder / "import.toml").read_text()})
         with self.assertRaises(rollrig.InputError):
             rollrig.new_tire("205/55R", rrc_N_per_kN=8.2)
         with self.assertRaisesRegex(TypeError, "rrc"):

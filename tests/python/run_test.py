@@ -119,6 +119,27 @@ class Calls(unittest.TestCase):
             rollrig.run("iso_28580", tire="a50", measurement_cycles=100, progress=refuse)
         self.assertGreater(rollrig.run("iso_28580", tire="a50", **QUICK)["rrc_N_per_kN"], 0)
 
+    def test_stop_in_all_threads_when_the_progress_of_one_raises(self):
+        started, raised = threading.Event(), []
+
+        def simulate():
+            try:
+                rollrig.run("iso_28580", tire="a50", measurement_cycles=100, measurement_min=600,
+                            progress=lambda done, stage: started.set())
+            except KeyboardInterrupt as error:
+                raised.append(error)
+
+        def refuse(done, stage):
+            if started.is_set():
+                raise LookupError("enough")
+
+        thread = threading.Thread(target=simulate)
+        thread.start()
+        with self.assertRaisesRegex(LookupError, "enough"):
+            rollrig.run("iso_28580", tire="a50", measurement_cycles=100, measurement_min=600, progress=refuse)
+        thread.join()
+        self.assertEqual(len(raised), 1)
+
     def test_stop_at_ctrl_c(self):
         program = ("import rollrig\ntry:\n  print('begun', flush=True)\n"
                    "  rollrig.run('iso_28580', tire='a50', measurement_cycles=100, measurement_min=600)\n"
