@@ -84,7 +84,8 @@ def make_members(headers, struct, arguments):
     lines = []
     for (owner, member), text in headers.members.items():
         if owner == struct and member in arguments and text:
-            lines.append(textwrap.fill(f"{member}: {speak_python(text)}", WIDTH, initial_indent="* ", subsequent_indent="  "))
+            said = f"{member}: {speak_python(text)}"
+            lines.append(textwrap.fill(said, WIDTH, initial_indent="* ", subsequent_indent="  "))
     if not lines:
         raise SystemExit(f"fill_doc_strings: no argument is a member of {struct}")
     return "\n".join(lines)
