@@ -62,8 +62,9 @@ Object& require(Object* object) {
   return *object;
 }
 
-/// Throws InputError where there is no room for `wanted` numbers.
-void require_room(const void* pointer, int count, std::size_t wanted) {
+/// Throws InputError where `count`, the number of values that the caller gives or takes, is not `wanted`, or there are
+/// none at `pointer`.
+void require_count(const void* pointer, int count, std::size_t wanted) {
   if (wanted > 0 && pointer == nullptr) throw c_error("a pointer is null");
   if (count >= 0 && static_cast<std::size_t>(count) == wanted) return;
   throw c_error("the number of values is wrong", "count", fmt::format("{}", count), fmt::format("{}", wanted));
@@ -193,14 +194,14 @@ int rollrig_wheel_state_count(const rollrig_wheel* wheel) {
 
 int rollrig_wheel_get_states(rollrig_wheel* wheel, double* states, int count) {
   return run_c([&] {
-    require_room(states, count, require(wheel).wheel.state_count());
+    require_count(states, count, require(wheel).wheel.state_count());
     wheel->wheel.get_states(states);
   });
 }
 
 int rollrig_wheel_set_states(rollrig_wheel* wheel, const double* states, int count) {
   return run_c([&] {
-    require_room(states, count, require(wheel).wheel.state_count());
+    require_count(states, count, require(wheel).wheel.state_count());
     wheel->wheel.set_states(states);
   });
 }
@@ -208,8 +209,8 @@ int rollrig_wheel_set_states(rollrig_wheel* wheel, const double* states, int cou
 int rollrig_wheel_get_rates(rollrig_wheel* wheel, double* rates, int count) {
   return run_c([&] {
     fmu::WarmWheel& of = require(wheel).wheel;
-    require_room(rates, count, of.state_count());
-    for (std::size_t i = 0; i < of.state_count(); ++i) rates[i] = of.get(of.first_rate() + i);
+    require_count(rates, count, of.state_count());
+    of.get_rates(rates);
   });
 }
 
@@ -233,7 +234,7 @@ int rollrig_wheel_saved_size(const rollrig_wheel* wheel) {
 int rollrig_wheel_save(const rollrig_wheel* wheel, char* bytes, int size) {
   return run_c([&] {
     const std::vector<char> saved = fmu::serialize({require(wheel).wheel.take_snapshot(), 0});
-    require_room(bytes, size, saved.size());
+    require_count(bytes, size, saved.size());
     std::copy(saved.begin(), saved.end(), bytes);
   });
 }
@@ -279,7 +280,7 @@ int rollrig_run_get_channel(const rollrig_run* run, int channel, double* values,
   return run_c([&] {
     const Channel* found = find_at(require(run).channels, channel);
     if (found == nullptr) throw c_error("there is no such channel", "channel", fmt::format("{}", channel));
-    require_room(values, count, found->values.size());
+    require_count(values, count, found->values.size());
     std::copy(found->values.begin(), found->values.end(), values);
   });
 }

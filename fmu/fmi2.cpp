@@ -48,11 +48,6 @@ void require_first_order(const fmi2Integer* order, std::size_t count) {
   refuse("only first derivatives of inputs are known");
 }
 
-SavedState& state_of(fmi2FMUstate state) {
-  require_given(state);
-  return *static_cast<SavedState*>(state);
-}
-
 /// A step is done when the call returns, so that there is nothing to ask for but the time.
 template <class Value>
 fmi2Status tell_status(fmi2Component component, const char* function, Value* value, bool is_known, const Value& known) {
@@ -158,48 +153,30 @@ fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference[], si
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return run_fmi2(component, "fmi2GetFMUstate", kAnyStage, [&](Instance& instance) {
-    require_given(state);
-    if (*state == nullptr) *state = new SavedState;
-    *static_cast<SavedState*>(*state) = instance.save();
-  });
+  return run_fmi2(component, "fmi2GetFMUstate", kAnyStage, [&](Instance& instance) { instance.get_state(state); });
 }
 
 fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state) {
-  return run_fmi2(component, "fmi2SetFMUstate", kAnyStage, [&](Instance& instance) { instance.load(state_of(state)); });
+  return run_fmi2(component, "fmi2SetFMUstate", kAnyStage, [&](Instance& instance) { instance.set_state(state); });
 }
 
 fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return run_fmi2(component, "fmi2FreeFMUstate", kAnyStage, [&](Instance&) {
-    if (state == nullptr) return;
-    delete static_cast<SavedState*>(*state);
-    *state = nullptr;
-  });
+  return run_fmi2(component, "fmi2FreeFMUstate", kAnyStage, [&](Instance&) { free_state(state); });
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi2FMUstate state, size_t* size) {
-  return run_fmi2(component, "fmi2SerializedFMUstateSize", kAnyStage, [&](Instance&) {
-    require_given(size);
-    *size = count_bytes(state_of(state));
-  });
+  return run_fmi2(component, "fmi2SerializedFMUstateSize", kAnyStage,
+                  [&](Instance&) { get_serialized_size(state, size); });
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
-  return run_fmi2(component, "fmi2SerializeFMUstate", kAnyStage, [&](Instance&) {
-    require_given(bytes);
-    const std::vector<char> made = serialize(state_of(state));
-    if (size < made.size()) refuse("there is too little room for the state");
-    std::copy(made.begin(), made.end(), bytes);
-  });
+  return run_fmi2(component, "fmi2SerializeFMUstate", kAnyStage,
+                  [&](Instance&) { serialize_state(state, bytes, size); });
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[], size_t size, fmi2FMUstate* state) {
-  return run_fmi2(component, "fmi2DeSerializeFMUstate", kAnyStage, [&](Instance&) {
-    require_given(state);
-    SavedState read = deserialize(bytes, size);
-    if (*state == nullptr) *state = new SavedState;
-    *static_cast<SavedState*>(*state) = std::move(read);
-  });
+  return run_fmi2(component, "fmi2DeSerializeFMUstate", kAnyStage,
+                  [&](Instance&) { deserialize_state(bytes, size, state); });
 }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference unknown[],
@@ -253,7 +230,7 @@ fmi2Status fmi2GetDerivatives(fmi2Component component, fmi2Real derivatives[], s
   return run_fmi2(component, "fmi2GetDerivatives", kEvents | kContinuous, [&](Instance& instance) {
     instance.require_state_count(count);
     require_given(derivatives, count);
-    instance.get_rates(derivatives);
+    instance.wheel.get_rates(derivatives);
   });
 }
 
@@ -283,10 +260,8 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueR
                                        const fmi2Integer order[], const fmi2Real values[]) {
   return run_fmi2(component, "fmi2SetRealInputDerivatives", kInstantiated | kInitialization | kStepping,
                   [&](Instance& instance) {
-                    require_given(references, count);
-                    require_given(values, count);
                     require_first_order(order, count);
-                    for (size_t i = 0; i < count; ++i) instance.wheel.set_input_slope(references[i], values[i]);
+                    instance.set_slopes(references, count, values);
                   });
 }
 

@@ -33,11 +33,6 @@ void require_same_count(std::size_t references, std::size_t values) {
   if (references != values) refuse("the number of values is not that of the variables");
 }
 
-SavedState& state_of_fmi3(fmi3FMUState state) {
-  require_given(state);
-  return *static_cast<SavedState*>(state);
-}
-
 fmi3Instance instantiate(const char* function, bool is_co_simulation, fmi3String name, fmi3String token,
                          fmi3InstanceEnvironment environment, fmi3LogMessageCallback log) {
   const auto tell = [environment, log, function](const std::string& message) {
@@ -161,49 +156,29 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance given, fmi3ValueReference, s
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance given, fmi3FMUState* state) {
-  return run_fmi3(given, "fmi3GetFMUState", kAnyStage, [&](Instance& instance) {
-    require_given(state);
-    if (*state == nullptr) *state = new SavedState;
-    *static_cast<SavedState*>(*state) = instance.save();
-  });
+  return run_fmi3(given, "fmi3GetFMUState", kAnyStage, [&](Instance& instance) { instance.get_state(state); });
 }
 
 fmi3Status fmi3SetFMUState(fmi3Instance given, fmi3FMUState state) {
-  return run_fmi3(given, "fmi3SetFMUState", kAnyStage,
-                  [&](Instance& instance) { instance.load(state_of_fmi3(state)); });
+  return run_fmi3(given, "fmi3SetFMUState", kAnyStage, [&](Instance& instance) { instance.set_state(state); });
 }
 
 fmi3Status fmi3FreeFMUState(fmi3Instance given, fmi3FMUState* state) {
-  return run_fmi3(given, "fmi3FreeFMUState", kAnyStage, [&](Instance&) {
-    if (state == nullptr) return;
-    delete static_cast<SavedState*>(*state);
-    *state = nullptr;
-  });
+  return run_fmi3(given, "fmi3FreeFMUState", kAnyStage, [&](Instance&) { free_state(state); });
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance given, fmi3FMUState state, size_t* size) {
-  return run_fmi3(given, "fmi3SerializedFMUStateSize", kAnyStage, [&](Instance&) {
-    require_given(size);
-    *size = count_bytes(state_of_fmi3(state));
-  });
+  return run_fmi3(given, "fmi3SerializedFMUStateSize", kAnyStage, [&](Instance&) { get_serialized_size(state, size); });
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance given, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
-  return run_fmi3(given, "fmi3SerializeFMUState", kAnyStage, [&](Instance&) {
-    require_given(bytes);
-    const std::vector<char> made = serialize(state_of_fmi3(state));
-    if (size < made.size()) refuse("there is too little room for the state");
-    std::copy(made.begin(), made.end(), reinterpret_cast<char*>(bytes));
-  });
+  return run_fmi3(given, "fmi3SerializeFMUState", kAnyStage,
+                  [&](Instance&) { serialize_state(state, reinterpret_cast<char*>(bytes), size); });
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance given, const fmi3Byte bytes[], size_t size, fmi3FMUState* state) {
-  return run_fmi3(given, "fmi3DeserializeFMUState", kAnyStage, [&](Instance&) {
-    require_given(state);
-    SavedState read = deserialize(reinterpret_cast<const char*>(bytes), size);
-    if (*state == nullptr) *state = new SavedState;
-    *static_cast<SavedState*>(*state) = std::move(read);
-  });
+  return run_fmi3(given, "fmi3DeserializeFMUState", kAnyStage,
+                  [&](Instance&) { deserialize_state(reinterpret_cast<const char*>(bytes), size, state); });
 }
 
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance given, const fmi3ValueReference unknown[], size_t unknown_count,
@@ -303,7 +278,7 @@ fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance given, fmi3Float64 der
   return run_fmi3(given, "fmi3GetContinuousStateDerivatives", kAfterStart, [&](Instance& instance) {
     instance.require_state_count(count);
     require_given(derivatives, count);
-    instance.get_rates(derivatives);
+    instance.wheel.get_rates(derivatives);
   });
 }
 

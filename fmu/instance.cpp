@@ -32,6 +32,32 @@ std::vector<std::size_t> widen(const unsigned* references, std::size_t count) {
   return {references, references + count};
 }
 
+/// Calls set(variable, value) for each variable. Where it throws, those that were set get back what get(variable) was.
+template <class Get, class Set>
+void set_all_or_none(const std::vector<std::size_t>& variables, const double* values, Get&& get, Set&& set) {
+  std::size_t done = 0;
+  std::vector<double> former;
+  try {
+    for (; done < variables.size(); ++done) {
+      former.push_back(get(variables[done]));
+      set(variables[done], values[done]);
+    }
+  } catch (...) {
+    while (done-- > 0) set(variables[done], former[done]);
+    throw;
+  }
+}
+
+SavedState& to_saved_state(void* state) {
+  require_given(state);
+  return *static_cast<SavedState*>(state);
+}
+
+void keep(SavedState&& saved, void** state) {
+  if (*state == nullptr) *state = new SavedState;
+  *static_cast<SavedState*>(*state) = std::move(saved);
+}
+
 }  // namespace
 
 void refuse(const char* why) { throw InputError({why, "", 0, "", "", "", ""}); }
@@ -44,7 +70,7 @@ void require_given(const void* pointer, std::size_t count) {
 Instance::Instance(const WheelModel& model, bool is_for_co_simulation, Log to)
     : wheel(model), is_co_simulation(is_for_co_simulation), log(std::move(to)) {}
 
-void Instance::require_stage(const char*, unsigned stages) const {
+void Instance::require_stage(unsigned stages) const {
   if ((stage & stages) != 0) return;
   throw InputError({fmt::format("this call is not allowed {}", name_stage(stage)), "", 0, "", "", "", ""});
 }
@@ -86,28 +112,27 @@ void Instance::get(const unsigned* references, std::size_t count, double* values
     return;
   }
   // Outputs and states as they would be at the start; parameters may still be set.
-  struct TakeBack {
+  struct Undo {
     WarmWheel& wheel;
-    ~TakeBack() { wheel.take_back_start(); }
-  } take_back{wheel};
+    ~Undo() { wheel.undo_initialize(); }
+  } undo{wheel};
   wheel.initialize(start_s);
   for (std::size_t i = 0; i < count; ++i) values[i] = wheel.get(variables[i]);
 }
 
 void Instance::set(const unsigned* references, std::size_t count, const double* values) {
   require_given(values, count);
-  const std::vector<std::size_t> variables = widen(references, count);
-  std::size_t done = 0;
-  std::vector<double> former;
-  try {
-    for (; done < count; ++done) {
-      former.push_back(wheel.get_if_settable(variables[done]));
-      wheel.set(variables[done], values[done]);
-    }
-  } catch (...) {
-    while (done-- > 0) wheel.set(variables[done], former[done]);
-    throw;
-  }
+  set_all_or_none(
+      widen(references, count), values, [this](std::size_t variable) { return wheel.get_if_settable(variable); },
+      [this](std::size_t variable, double value) { wheel.set(variable, value); });
+}
+
+void Instance::set_slopes(const unsigned* references, std::size_t count, const double* slopes_per_s) {
+  require_given(slopes_per_s, count);
+  set_all_or_none(
+      widen(references, count), slopes_per_s,
+      [this](std::size_t variable) { return wheel.get_slope_if_input(variable); },
+      [this](std::size_t variable, double slope_per_s) { wheel.set_input_slope(variable, slope_per_s); });
 }
 
 void Instance::step(double time_s, double step_s) {
@@ -132,25 +157,27 @@ void Instance::differentiate(const unsigned* unknown, std::size_t unknown_count,
   std::copy(found.begin(), found.end(), derivatives);
 }
 
-void Instance::get_rates(double* rates) {
-  for (std::size_t i = 0; i < wheel.state_count(); ++i) rates[i] = wheel.get(wheel.first_rate() + i);
-}
-
 void Instance::get_nominals(double* nominals) const {
   for (std::size_t i = 0; i < wheel.state_count(); ++i) {
     nominals[i] = wheel.variables()[wheel.first_state() + i].nominal;
   }
 }
 
-void Instance::load(const SavedState& state) {
-  const unsigned wanted = static_cast<unsigned>(state.stage);
+void Instance::get_state(void** state) const {
+  require_given(state);
+  keep({wheel.take_snapshot(), static_cast<int>(stage)}, state);
+}
+
+void Instance::set_state(void* state) {
+  const SavedState& saved = to_saved_state(state);
+  const unsigned wanted = static_cast<unsigned>(saved.stage);
   const unsigned possible = kAnyStage & ~(is_co_simulation ? kEvents | kContinuous : kStepping);
   const bool is_one = wanted != 0 && (wanted & (wanted - 1)) == 0 && (wanted & possible) != 0;
   const bool has_started = (wanted & kAfterStart) != 0;
-  if (!is_one || (has_started && state.wheel.states.empty())) {
+  if (!is_one || (has_started && saved.wheel.states.empty())) {
     refuse("the state is one of another kind of instance");
   }
-  wheel.restore(state.wheel);
+  wheel.restore(saved.wheel);
   stage = wanted;
 }
 
@@ -158,6 +185,29 @@ void Instance::require_state_count(std::size_t count) const {
   if (count == wheel.state_count()) return;
   throw InputError({"the number of states is wrong", "", 0, "", fmt::format("{}", count),
                     fmt::format("{}", wheel.state_count()), ""});
+}
+
+void free_state(void** state) noexcept {
+  if (state == nullptr) return;
+  delete static_cast<SavedState*>(*state);
+  *state = nullptr;
+}
+
+void get_serialized_size(void* state, std::size_t* size) {
+  require_given(size);
+  *size = count_bytes(to_saved_state(state));
+}
+
+void serialize_state(void* state, char* bytes, std::size_t size) {
+  require_given(bytes);
+  const std::vector<char> made = serialize(to_saved_state(state));
+  if (size < made.size()) refuse("there is too little room for the state");
+  std::copy(made.begin(), made.end(), bytes);
+}
+
+void deserialize_state(const char* bytes, std::size_t size, void** state) {
+  require_given(state);
+  keep(deserialize(bytes, size), state);
 }
 
 }  // namespace rollrig::fmu

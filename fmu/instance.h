@@ -1,6 +1,6 @@
 #pragma once
 /// An instance of the FMU as both versions of the interface see it: a wheel, and the stage that says which calls are
-/// allowed. A front (fmi2.cpp, fmi3.cpp) turns calls of C into calls of this, and its failures into a status.
+/// allowed. fmi2.cpp and fmi3.cpp turn calls of C into calls of this, and its failures into a status.
 
 #include <functional>
 #include <limits>
@@ -34,7 +34,7 @@ struct Instance {
   template <class Body>
   bool run(const char* function, unsigned stages, Body&& body) noexcept {
     try {
-      require_stage(function, stages);
+      require_stage(stages);
       body();
       return true;
     } catch (const std::exception& error) {
@@ -52,13 +52,16 @@ struct Instance {
   void get(const unsigned* references, std::size_t count, double* values);
   /// All of the values, or none.
   void set(const unsigned* references, std::size_t count, const double* values);
+  /// Slopes of inputs for the next step: all of them, or none.
+  void set_slopes(const unsigned* references, std::size_t count, const double* slopes_per_s);
   void step(double time_s, double step_s);
   void differentiate(const unsigned* unknown, std::size_t unknown_count, const unsigned* known, std::size_t known_count,
                      const double* direction, double* derivatives);
-  void get_rates(double* rates);
   void get_nominals(double* nominals) const;
-  SavedState save() const { return {wheel.take_snapshot(), static_cast<int>(stage)}; }
-  void load(const SavedState& state);
+  /// Saves the present state into `*state`, a SavedState that the importer holds; makes one where it is null.
+  void get_state(void** state) const;
+  /// Goes on from a SavedState that the importer holds.
+  void set_state(void* state);
   void require_state_count(std::size_t count) const;
 
   WarmWheel wheel;
@@ -69,7 +72,7 @@ struct Instance {
   double stop_s = std::numeric_limits<double>::infinity();
 
  private:
-  void require_stage(const char* function, unsigned stages) const;
+  void require_stage(unsigned stages) const;
   void report(const char* function, const char* why) noexcept;
 };
 
@@ -77,5 +80,13 @@ struct Instance {
 [[noreturn]] void refuse(const char* why);
 /// Throws InputError for a null pointer where there should be `count` values.
 void require_given(const void* pointer, std::size_t count = 1);
+
+/// `state` is a SavedState that the importer holds. It is null after free_state().
+void free_state(void** state) noexcept;
+void get_serialized_size(void* state, std::size_t* size);
+/// Throws InputError where `size` is less than the state needs.
+void serialize_state(void* state, char* bytes, std::size_t size);
+/// Throws InputError where the bytes are not those of serialize_state().
+void deserialize_state(const char* bytes, std::size_t size, void** state);
 
 }  // namespace rollrig::fmu

@@ -28,9 +28,10 @@ constexpr std::array<InputInfo, rigs::kRollerInputCount + 1> kInputs{
     {{"speed_m_s", "Speed of the surface past the wheel", between(-150.0, 150.0)},
      {"load_N", "Load at the contact", between(0.0, 1e6)},
      {"ambient_temperature_K", "Air at the tire", kSurroundings_K},
-     {"surface_temperature_K", "Road, drum or belt under the tire", kSurroundings_K},
-     {"drive_force_N", "Torque of the hub on the wheel over the loaded radius, positive when it drives", kForces_N},
-     {"acceleration_m_s2", "Rate of the speed, by which it goes on through a step of co-simulation",
+     {"surface_temperature_K", "Road, drum, belt or roller under the tire; it does not follow the air",
+      kSurroundings_K},
+     {"drive_force_N", "Torque at the hub divided by the loaded radius; positive when it drives", kForces_N},
+     {"acceleration_m_s2", "Rate of change of speed_m_s; in co-simulation, the speed changes by it through a step",
       between(-1e3, 1e3)}}};
 constexpr std::size_t kSpeed = rigs::index_of(rigs::DrumInput::kSpeed);
 constexpr std::size_t kAcceleration = rigs::kRollerInputCount;
@@ -63,7 +64,8 @@ constexpr const char* kLostEnergy = "tire_loss_J";
 constexpr double kEnergyScale_J = 1e5;  // Assumed: of a tire in minutes
 constexpr std::size_t kLostIntegral = rigs::index_of(rigs::RecordedIntegral::kTireLoss);
 
-constexpr double kMostSteps = 1e5;  // of the integrator in one advance(): no mistaken number keeps it busy for ever
+constexpr double kMostSteps =
+    1e5;  // of the integrator in one advance(), so that a mistaken number does not run forever
 
 constexpr const char* kLiner = "liner_temperature_K";  // whatever the tire's model calls it
 
@@ -111,7 +113,7 @@ void require_consistent(const WheelModel& model) {
 
 /// The equations for one scalar, with what an integrator needs.
 template <class S>
-struct WarmWheel::Rig {
+struct WarmWheel::Simulation {
   static rigs::RigStart<S> make_start(const WheelModel& model) {
     rigs::RigStart<S> start;
     start.tire_temperature_K = S(model.tire_temperature_K);
@@ -120,7 +122,7 @@ struct WarmWheel::Rig {
     return start;
   }
 
-  explicit Rig(const WheelModel& model)
+  explicit Simulation(const WheelModel& model)
       : corner(models::convert_context<S>(model.context), model.effects),
         wheel(corner, make_start(model), true, rigs::Detail::kFull),
         integrator(wheel),
@@ -134,23 +136,23 @@ struct WarmWheel::Rig {
   std::vector<S> states, rates, integrals;
 };
 
-WarmWheel::WarmWheel(const WheelModel& model) : made_of_(model), model_(model) {
+WarmWheel::WarmWheel(const WheelModel& model) : original_model_(model), model_(model) {
   list_variables();
   reset();
 }
 
 WarmWheel::~WarmWheel() = default;
 
-void WarmWheel::take_back_start() {
-  rig_.reset();
-  jet_rig_.reset();
+void WarmWheel::undo_initialize() {
+  simulation_.reset();
+  jet_simulation_.reset();
   states_.clear();
   is_evaluated_ = false;
 }
 
 void WarmWheel::reset() {
-  take_back_start();
-  model_ = made_of_;
+  undo_initialize();
+  model_ = original_model_;
   list_parameters();
   inputs_.clear();
   for (std::size_t i = 0; i < kInputs.size(); ++i) inputs_.push_back(variables_[i].start);
@@ -206,7 +208,7 @@ const Variable& WarmWheel::variable(std::size_t index) const {
 }
 
 void WarmWheel::require_initialized() const {
-  if (rig_ == nullptr) {
+  if (simulation_ == nullptr) {
     throw InputError({"the wheel has not been initialized", "", 0, "", "", "initialize it before this call", ""});
   }
 }
@@ -234,6 +236,11 @@ void WarmWheel::set_input_slope(std::size_t index, double slope_per_s) {
   }
   if (given.index == kSpeed) return set(kAcceleration, slope_per_s);
   input_slopes_[given.index] = slope_per_s;
+}
+
+double WarmWheel::get_slope_if_input(std::size_t index) const {
+  const Variable& of = variable(index);
+  return of.role == Role::kInput ? find_slope(of.index) : 0.0;
 }
 
 double WarmWheel::find_slope(std::size_t input) const {
@@ -277,20 +284,20 @@ sim::Segment WarmWheel::make_segment(double duration_s) const {
   return segment;
 }
 
-std::unique_ptr<WarmWheel::Rig<double>> WarmWheel::make_rig(double time_s) const {
+std::unique_ptr<WarmWheel::Simulation<double>> WarmWheel::make_simulation(double time_s) const {
   require_consistent(model_);
-  auto rig = std::make_unique<Rig<double>>(model_);
-  rig->wheel.initialize(make_segment(0.0), time_s, rig->states.data());
-  return rig;
+  auto simulation = std::make_unique<Simulation<double>>(model_);
+  simulation->wheel.initialize(make_segment(0.0), time_s, simulation->states.data());
+  return simulation;
 }
 
 void WarmWheel::initialize(double time_s) {
   require_finite(time_s, "time");
-  std::unique_ptr<Rig<double>> rig = make_rig(time_s);
-  states_ = rig->states;
+  std::unique_ptr<Simulation<double>> simulation = make_simulation(time_s);
+  states_ = simulation->states;
   states_.push_back(0.0);
-  rig_ = std::move(rig);
-  jet_rig_.reset();
+  simulation_ = std::move(simulation);
+  jet_simulation_.reset();
   time_s_ = time_s;
   is_evaluated_ = false;
 }
@@ -303,15 +310,15 @@ void WarmWheel::set_time(double time_s) {
 void WarmWheel::evaluate() {
   require_initialized();
   if (is_evaluated_) return;
-  Rig<double>& rig = *rig_;
-  std::copy_n(states_.begin(), rig.states.size(), rig.states.begin());
-  rig.wheel.give({inputs_[kAcceleration], {}});
-  rig.wheel.begin_segment(make_segment(0.0), time_s_, rig.states.data(), rig.integrals.data());
-  rig.wheel.evaluate(time_s_, rig.states.data(), rig.rates.data(), rig.integrals.data());
-  const auto outputs = read_outputs(rig.wheel);
+  Simulation<double>& simulation = *simulation_;
+  std::copy_n(states_.begin(), simulation.states.size(), simulation.states.begin());
+  simulation.wheel.set_given({inputs_[kAcceleration], {}});
+  simulation.wheel.begin_segment(make_segment(0.0), time_s_, simulation.states.data(), simulation.integrals.data());
+  simulation.wheel.evaluate(time_s_, simulation.states.data(), simulation.rates.data(), simulation.integrals.data());
+  const auto outputs = read_outputs(simulation.wheel);
   outputs_.assign(outputs.begin(), outputs.end());
-  rates_ = rig.rates;
-  rates_.push_back(rig.integrals[kLostIntegral]);
+  rates_ = simulation.rates;
+  rates_.push_back(simulation.integrals[kLostIntegral]);
   const auto is_finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(outputs_.begin(), outputs_.end(), is_finite) ||
       !std::all_of(rates_.begin(), rates_.end(), is_finite)) {
@@ -333,28 +340,30 @@ void WarmWheel::advance(double duration_s) {
     const double end = inputs_[i] + find_slope(i) * duration_s;
     if (!kInputs[i].range.contains(end)) throw bad_value(variables_[i], end, "the slope leads to a value not allowed");
   }
-  Rig<double>& rig = *rig_;
+  Simulation<double>& simulation = *simulation_;
   is_evaluated_ = false;
-  rig.integrator.begin_run(time_s_);
-  std::copy_n(states_.begin(), rig.states.size(), rig.integrator.state());
-  rig.integrator.integrals()[kLostIntegral] = states_.back();
-  rig.wheel.give({inputs_[kAcceleration], {}});
+  simulation.integrator.begin_run(time_s_);
+  std::copy_n(states_.begin(), simulation.states.size(), simulation.integrator.state());
+  simulation.integrator.integrals()[kLostIntegral] = states_.back();
+  simulation.wheel.set_given({inputs_[kAcceleration], {}});
   sim::Program program;
   program.phases.push_back({"", {make_segment(duration_s)}, {}, {}});
   double end_s = time_s_;
   program = rigs::refine_near_standstill(program, kSpeed);
   for (const sim::Segment& piece : program.phases.front().segments) {
     end_s += piece.duration_s;
-    rig.wheel.begin_segment(piece, rig.integrator.time_s(), rig.integrator.state(), rig.integrator.integrals());
+    simulation.wheel.begin_segment(piece, simulation.integrator.time_s(), simulation.integrator.state(),
+                                   simulation.integrator.integrals());
     const double longest_s = model_.longest_step_s;
-    rig.integrator.begin_segment(piece.max_step_s > 0.0 ? std::min(piece.max_step_s, longest_s) : longest_s, nullptr);
-    while (rig.integrator.time_s() < end_s) {
-      rig.integrator.step(end_s);
-      rig.wheel.require_possible(rig.integrator.state());
+    simulation.integrator.begin_segment(piece.max_step_s > 0.0 ? std::min(piece.max_step_s, longest_s) : longest_s,
+                                        nullptr);
+    while (simulation.integrator.time_s() < end_s) {
+      simulation.integrator.step(end_s);
+      simulation.wheel.require_possible(simulation.integrator.state());
     }
   }
-  std::copy_n(rig.integrator.state(), rig.states.size(), states_.begin());
-  states_.back() = rig.integrator.integrals()[kLostIntegral];
+  std::copy_n(simulation.integrator.state(), simulation.states.size(), states_.begin());
+  states_.back() = simulation.integrator.integrals()[kLostIntegral];
   time_s_ += duration_s;
   for (std::size_t i = 0; i < rigs::kRollerInputCount; ++i) {
     inputs_[i] += find_slope(i) * duration_s;
@@ -374,22 +383,28 @@ void WarmWheel::set_states(const double* states) {
     require_finite(states[i], state(i).name);
     states_SI[i] = state(i).unit.to_si(states[i]);
   }
-  rig_->wheel.require_possible(states_SI.data());
+  simulation_->wheel.require_possible(states_SI.data());
   states_ = std::move(states_SI);
   is_evaluated_ = false;
+}
+
+void WarmWheel::get_rates(double* rates) {
+  for (std::size_t i = 0; i < state_count_; ++i) rates[i] = get(first_rate() + i);
 }
 
 std::vector<double> WarmWheel::differentiate(const std::vector<std::size_t>& unknown,
                                              const std::vector<std::size_t>& known,
                                              const std::vector<double>& direction) {
   require_initialized();
-  if (jet_rig_ == nullptr) {
-    jet_rig_ = std::make_unique<Rig<Jet>>(model_);
-    jet_rig_->wheel.initialize(make_segment(0.0), time_s_, jet_rig_->states.data());
+  if (jet_simulation_ == nullptr) {
+    auto made = std::make_unique<Simulation<Jet>>(model_);
+    made->wheel.initialize(make_segment(0.0), time_s_, made->states.data());
+    jet_simulation_ = std::move(made);
   }
-  Rig<Jet>& rig = *jet_rig_;
+  Simulation<Jet>& simulation = *jet_simulation_;
   Jet lost{states_.back()};
-  std::transform(states_.begin(), states_.end() - 1, rig.states.begin(), [](double value) { return Jet(value); });
+  std::transform(states_.begin(), states_.end() - 1, simulation.states.begin(),
+                 [](double value) { return Jet(value); });
   rigs::DrivenWheel<Jet>::Given given;
   given.acceleration_m_s2 = Jet(inputs_[kAcceleration]);
   for (std::size_t i = 0; i < known.size(); ++i) {
@@ -399,16 +414,16 @@ std::vector<double> WarmWheel::differentiate(const std::vector<std::size_t>& unk
       Jet& seeded = by.index == kAcceleration ? given.acceleration_m_s2 : given.seeds[by.index];
       seeded.v[0] += direction[i];
     } else if (by.role == Role::kState) {
-      Jet& seeded = by.index + 1 == state_count_ ? lost : rig.states[by.index];
+      Jet& seeded = by.index + 1 == state_count_ ? lost : simulation.states[by.index];
       seeded.v[0] += direction[i] * by.unit.factor;
     } else {
       throw bad_value(by, direction[i], "derivatives are by inputs and states alone");
     }
   }
-  rig.wheel.give(given);
-  rig.wheel.begin_segment(make_segment(0.0), time_s_, rig.states.data(), rig.integrals.data());
-  rig.wheel.evaluate(time_s_, rig.states.data(), rig.rates.data(), rig.integrals.data());
-  const auto outputs = read_outputs(rig.wheel);
+  simulation.wheel.set_given(given);
+  simulation.wheel.begin_segment(make_segment(0.0), time_s_, simulation.states.data(), simulation.integrals.data());
+  simulation.wheel.evaluate(time_s_, simulation.states.data(), simulation.rates.data(), simulation.integrals.data());
+  const auto outputs = read_outputs(simulation.wheel);
   std::vector<double> derivatives;
   for (const std::size_t index : unknown) {
     const Variable& of = variable(index);
@@ -416,9 +431,10 @@ std::vector<double> WarmWheel::differentiate(const std::vector<std::size_t>& unk
     if (of.role == Role::kOutput) {
       derivatives.push_back(outputs[of.index].v[0]);
     } else if (of.role == Role::kState) {
-      derivatives.push_back((is_lost ? lost : rig.states[of.index]).v[0] / of.unit.factor);
+      derivatives.push_back((is_lost ? lost : simulation.states[of.index]).v[0] / of.unit.factor);
     } else if (of.role == Role::kRate) {
-      derivatives.push_back((is_lost ? rig.integrals[kLostIntegral] : rig.rates[of.index]).v[0] / of.unit.factor);
+      derivatives.push_back((is_lost ? simulation.integrals[kLostIntegral] : simulation.rates[of.index]).v[0] /
+                            of.unit.factor);
     } else {
       throw bad_value(of, 0.0, "derivatives are those of outputs, states and rates alone");
     }
@@ -457,19 +473,19 @@ void WarmWheel::restore(const Snapshot& snapshot) {
     inputs_ = from.inputs;
     input_slopes_ = from.input_slopes;
   };
-  std::unique_ptr<Rig<double>> rig;
+  std::unique_ptr<Simulation<double>> simulation;
   const bool same_wheel = is_initialized() && before.parameters == snapshot.parameters;
   try {
     put(snapshot);
-    if (has_states && !same_wheel) rig = make_rig(snapshot.time_s);
-    if (has_states) (same_wheel ? *rig_ : *rig).wheel.require_possible(snapshot.states.data());
+    if (has_states && !same_wheel) simulation = make_simulation(snapshot.time_s);
+    if (has_states) (same_wheel ? *simulation_ : *simulation).wheel.require_possible(snapshot.states.data());
   } catch (...) {
     put(before);
     throw;
   }
   if (!same_wheel || !has_states) {
-    rig_ = std::move(rig);
-    jet_rig_.reset();
+    simulation_ = std::move(simulation);
+    jet_simulation_.reset();
   }
   states_ = snapshot.states;
   time_s_ = snapshot.time_s;

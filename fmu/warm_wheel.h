@@ -14,7 +14,8 @@ namespace rollrig::fmu {
 
 enum class Role { kInput, kOutput, kState, kRate, kParameter, kTime };
 
-/// A number that another simulator sees, in the unit that its name ends with.
+/// A number that another simulator sees, in the unit that its name ends with; ratios have none. der(x) is the rate of
+/// the state x, in the unit of x per second.
 struct Variable {
   std::string name;
   Role role;
@@ -35,16 +36,16 @@ struct Snapshot {
   double time_s = 0.0;
 };
 
-/// One wheel. Two threads may use two wheels at once, but not one.
+/// One wheel. Two threads may use two wheels at once, but not one wheel.
 ///
-/// Parameters may be set before initialize() alone, inputs always. Inputs, outputs and states are in SI units,
-/// parameters in those of files.
+/// Parameters may be set before initialize() only, inputs always. Inputs, outputs and states are in SI units,
+/// parameters in those of files. Inputs hold through advance(), unless they have a slope: then they change linearly
+/// through it.
 ///
 /// Equation  rigs/driven_wheel.h; states are those of models/corner.h, and the energy that the tire has lost. advance()
 ///           steps as a quasi-static run does: sim/fixed_grid_integrator.h on the grid of rigs/standstill_grid.h
-/// Errors    InputError: a value that is not allowed, not a number, or set too late. RunFailure: the wheel is in a state
-///           that none can have. After either, all is as it was before the call, but that a failed advance() leaves
-///           time and states in between
+/// Errors    InputError: a value that is not allowed, not a number, or set too late. RunFailure: a state that no tire
+///           can have. After either, time, states, inputs and parameters are as before the call
 /// Checked   tests/fmu/co_simulation_test.cpp
 class WarmWheel {
  public:
@@ -65,29 +66,36 @@ class WarmWheel {
   double get(std::size_t variable);
   /// The value of an input or a parameter; 0 of all else.
   double get_if_settable(std::size_t variable);
-  /// Slope of an input through the next advance(), after which it is 0 again. That of the speed is the acceleration
-  /// too.
+  /// Slope of an input, in its unit per second, through the next advance(); then it is 0 again. The slope of the speed
+  /// is the input acceleration_m_s2, which stays. The acceleration itself has none.
   void set_input_slope(std::size_t variable, double slope_per_s);
+  /// The slope of an input; 0 of all else.
+  double get_slope_if_input(std::size_t variable) const;
 
-  bool is_initialized() const { return rig_ != nullptr; }
-  /// Puts the tire at the start, soaked at its temperature, under the present inputs.
+  bool is_initialized() const { return simulation_ != nullptr; }
+  /// Puts the tire at the start: all its temperatures are the parameter start.tire_temperature_degC.
   void initialize(double time_s);
   /// Back to before initialize(): parameters and inputs stay, and may be set.
-  void take_back_start();
-  /// Back to how it was made.
+  void undo_initialize();
+  /// Back to how it was created.
   void reset();
 
   double time_s() const { return time_s_; }
-  /// Sets the time alone, for a solver of others.
+  /// Sets only the time, for a solver of the caller's.
   void set_time(double time_s);
-  /// Goes on by `duration_s`; inputs with a slope end where it leads.
+  /// Goes on by `duration_s` [s], more than 0 and at most 1e5 times steps.longest_s. Inputs with a slope end where it
+  /// leads.
   void advance(double duration_s);
 
   /// In the units of their variables.
   void get_states(double* states) const;
   void set_states(const double* states);
+  /// Rates of all states, in the units of their variables.
+  void get_rates(double* rates);
 
-  /// Derivative of `unknown` (outputs, states, rates) along a direction of `known` (inputs, states): an entry each.
+  /// Directional derivative, exact (dual numbers), in the units of the variables.
+  /// Equation  derivative[i] = sum over k of d unknown[i]/d known[k] direction[k]
+  /// Symbols   unknown: outputs, states and rates; known: inputs and states
   std::vector<double> differentiate(const std::vector<std::size_t>& unknown, const std::vector<std::size_t>& known,
                                     const std::vector<double>& direction);
 
@@ -97,7 +105,7 @@ class WarmWheel {
 
  private:
   template <class S>
-  struct Rig;
+  struct Simulation;
 
   void list_parameters();
   void list_variables();
@@ -106,11 +114,11 @@ class WarmWheel {
   const Variable& state(std::size_t index) const { return variables_[first_state_ + index]; }
   void require_initialized() const;
   double find_slope(std::size_t input) const;
-  std::unique_ptr<Rig<double>> make_rig(double time_s) const;
+  std::unique_ptr<Simulation<double>> make_simulation(double time_s) const;
   sim::Segment make_segment(double duration_s) const;
   void evaluate();
 
-  WheelModel made_of_;  // as it was made
+  WheelModel original_model_;  // for reset()
   WheelModel model_;
   std::vector<double*> parameters_;  // into model_, SI
   std::vector<Variable> variables_;
@@ -123,8 +131,8 @@ class WarmWheel {
   bool is_evaluated_ = false;
   std::vector<double> rates_;
   std::vector<double> outputs_;
-  std::unique_ptr<Rig<double>> rig_;
-  std::unique_ptr<Rig<Jet>> jet_rig_;  // made when a derivative is asked for
+  std::unique_ptr<Simulation<double>> simulation_;
+  std::unique_ptr<Simulation<Jet>> jet_simulation_;  // made when a derivative is asked for
 };
 
 }  // namespace rollrig::fmu

@@ -16,8 +16,8 @@ struct WheelModel {
   double ambient_pressure_Pa = kStandardAtmosphere_Pa;  // absolute
   double tire_temperature_K = 0.0;                      // at the start, of all its nodes
   double cold_pressure_Pa = 0.0;                        // gauge, at that temperature
-  double load_N = 0.0;                                  // start values of inputs
-  double ambient_K = 0.0;
+  double load_N = 0.0;                                  // start value of the input
+  double ambient_K = 0.0;                               // start value of both temperature inputs
   double longest_step_s = 1.0;  // of the integrator. Assumed: as of a vehicle's drive whose speed changes
 
   /// Calls visit(name, field, member) for every number that enters an equation, in SI units. Tables and keys are those
@@ -38,7 +38,8 @@ struct WheelModel {
     const auto of_rig = in_table("rig");
     of_rig(Field{"surface_curvature_per_m", between(0.0, 100.0), "1/R of drum or roller; 0 of a plane"},
            m.context.surface_curvature_per_m);
-    of_rig(Field{"lever_m", non_negative(), "Torque at the axis of the surface over force at it"},
+    of_rig(Field{"machine_radius_m", non_negative(),
+                 "Radius of the drum or roller: torque at its axis divided by the force at its surface"},
            m.context.machine_radius_m);
     of_rig(Field{"moving_mass_kg", non_negative(), "Inertia of drum, belt or roller as mass at its surface"},
            m.context.machine_mass_kg);

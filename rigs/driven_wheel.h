@@ -8,7 +8,7 @@
 namespace rollrig::rigs {
 
 /// One wheel on a roller, a drum, a belt or the road, driven by a force of its hub. Inputs are those of a
-/// RecordedRoller, but its longitudinal force is that of the hub: torque over the loaded radius, positive when it
+/// RecordedRoller, but its longitudinal force is that of the hub: torque divided by the loaded radius; positive when it
 /// drives.
 ///
 /// Equation  force of the surface on the wheel  X = F_rr/(1 + r_l k) + I_spin a/r_l^2 - D;  all else RecordedRoller
@@ -26,7 +26,7 @@ class DrivenWheel : public RecordedRoller<S> {
     S acceleration_m_s2{};
     std::array<S, kRollerInputCount> seeds{};  // of value 0, in the order of the inputs
   };
-  void give(const Given& given) { given_ = given; }
+  void set_given(const Given& given) { given_ = given; }
 
   /// Everything as evaluate() left it.
   const models::Instant<S>& now() const { return this->wheel().now; }

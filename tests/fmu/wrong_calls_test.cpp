@@ -96,6 +96,41 @@ TEST_CASE("several values are set all, or none", "[fast]") {
   CHECK(tire.get("speed_m_s") == 0.0);
 }
 
+TEST_CASE("several slopes are set all, or none", "[fast]") {
+  const LoadedFmu fmu("a50");
+  Fmi2 tire(fmu, fmi2CoSimulation);
+  tire.initialize();
+  tire.set("speed_m_s", 20.0);
+  tire.set_slope("speed_m_s", 0.5);
+  tire.set_slope("load_N", 10.0);
+  const double load_N = tire.get("load_N");
+  const unsigned references[] = {fmu.description().find("speed_m_s"), fmu.description().find("load_N"),
+                                 fmu.description().find("rolling_resistance_N")};  // the last is no input
+  const fmi2Integer orders[] = {1, 1, 1};
+  const double slopes[] = {1.0, 100.0, 1.0};
+  CHECK(FMI2(fmu, fmi2SetRealInputDerivatives)(tire.component, references, 3, orders, slopes) == fmi2Error);
+  CHECK(tire.get("acceleration_m_s2") == 0.5);
+  tire.step(0.0, 2.0);
+  CHECK(tire.get("speed_m_s") == Approx(21.0));
+  CHECK(tire.get("load_N") == Approx(load_N + 20.0));
+}
+
+TEST_CASE("a step that is refused changes nothing", "[fast]") {
+  const LoadedFmu fmu("a50");
+  Fmi2 tire(fmu, fmi2CoSimulation);
+  tire.initialize();
+  tire.set("speed_m_s", 20.0);
+  tire.step(0.0, 60.0);
+  tire.set_slope("load_N", -1e4);  // leads below 0
+  const double liner_K = tire.get("liner_temperature_K");
+  CHECK(FMI2(fmu, fmi2DoStep)(tire.component, 60.0, 10.0, fmi2True) == fmi2Error);
+  CHECK(tire.get("liner_temperature_K") == liner_K);
+  CHECK(tire.get("time_s") == 60.0);
+  CHECK(tire.get("speed_m_s") == 20.0);
+  tire.set_slope("load_N", 0.0);
+  tire.step(60.0, 10.0);
+}
+
 TEST_CASE("an instance is made for the FMU's own description alone", "[fast]") {
   const LoadedFmu fmu("a50");
   const auto make = FMI2(fmu, fmi2Instantiate);
