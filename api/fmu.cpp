@@ -12,8 +12,8 @@ namespace rollrig {
 
 std::string make_fmu(const FmuInput& input) {
   if (input.fmi_version != 2 && input.fmi_version != 3) {
-    throw InputError({"this version of FMI is not written", "command line", 0, "--fmi",
-                      fmt::format("{}", input.fmi_version), "2 or 3", ""});
+    throw InputError(
+        {"unknown version of FMI", "", 0, "fmi_version", fmt::format("{}", input.fmi_version), "2 or 3", ""});
   }
   const models::TireFile tire = models::read_tire(read_config(find_asset("tires", input.tire)));
   const rigs::RigFile rig = rigs::read_rig(read_config(find_asset("rigs", input.rig)));

@@ -90,9 +90,20 @@ struct FmuOptions {
   bool quiet = false;
 };
 
+/// What make_fmu() refuses by the name of its member is refused by the name of the option.
+std::string make_fmu_of_options(const FmuInput& input) {
+  try {
+    return make_fmu(input);
+  } catch (const InputError& error) {
+    const InputProblem& problem = error.problem();
+    if (problem.key != "fmi_version") throw;
+    throw usage_error(problem.what, "--fmi", problem.value, problem.allowed);
+  }
+}
+
 int export_fmu_command(const FmuOptions& options) {
   const OutputFiles files({{"--out", options.out}});
-  const std::string fmu = make_fmu(options.input);
+  const std::string fmu = make_fmu_of_options(options.input);
   files.require_no_input();
   std::vector<StagedOutput> staged;
   staged.emplace_back(options.out, fmu);

@@ -14,9 +14,13 @@ struct FmuInput {
   int fmi_version = 2;               // 2 or 3
 };
 
-/// The bytes of the FMU, for this kind of machine (64-bit Linux). The same input gives the same bytes.
-/// Example  write_folder("exported", {{"tire.fmu", make_fmu({"a50"})}});
-/// Errors   InputError: no such tire, rig or effect; the tire lacks what the rig needs; an unknown version
+/// The bytes of the FMU, which runs on Linux on x86-64 with glibc 2.36 or newer (Debian 12). It needs no other library
+/// and no file, and rollrig need not be installed. The same files and input give the same bytes, from the same version
+/// of rollrig.
+/// Example   write_folder("exported", {{"tire.fmu", make_fmu({"a50"})}});
+/// Equation  docs/physics.md, DrivenWheel
+/// Validity  docs/fmu.md#validity
+/// Errors    InputError: no such tire, rig or effect; the tire lacks what the rig needs; an unknown version
 std::string make_fmu(const FmuInput& input);
 
 }  // namespace rollrig

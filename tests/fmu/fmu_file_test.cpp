@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "build_paths.h"
+#include "rollrig/error.h"
 #include "rollrig/fmu.h"
 #include "tests/fmu/importer.h"
 #include "tests/support/run_program.h"
@@ -124,6 +125,14 @@ TEST_CASE("what no FMU can be made of is refused", "[fast]") {
   refuse("--tire a5", "a50");
   refuse("--tire a50 --rig drum", "drum_2m");
   refuse("--tire a50 --fmi 1", "2 or 3");
+  refuse("--tire a50 --fmi 1", "--fmi");
   refuse("--tire a50 --effects slip", "slip_loss");
   CHECK(run_program("export", folder.path()).status == 2);
+  try {
+    rollrig::make_fmu({"a50", "road", {}, 1});
+    FAIL("FMI 1 was not refused");
+  } catch (const rollrig::InputError& error) {
+    CHECK(error.problem().key == "fmi_version");
+    CHECK(error.problem().file.empty());
+  }
 }
