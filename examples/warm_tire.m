@@ -18,7 +18,7 @@ for minute = 0:10:30
   resistance_N = value.Value;
   check(calllib('rollrig', 'rollrig_wheel_get', tire, find('liner_temperature_K'), value));
   fprintf('%3d  %12.2f  %10.1f\n', minute, resistance_N, value.Value - 273.15);
-  check(calllib('rollrig', 'rollrig_wheel_step', tire, 600));
+  if minute < 30, check(calllib('rollrig', 'rollrig_wheel_step', tire, 600)); end
 end
 calllib('rollrig', 'rollrig_wheel_free', tire);
 unloadlibrary('rollrig');

@@ -1,4 +1,4 @@
-"""A tire warms up at 80 km/h: the C API of rollrig from Python, which needs no package of it.
+"""A tire warms up at 80 km/h: the C API of rollrig from Python, without the Python package rollrig.
 
 python3 examples/warm_tire.py librollrig.so
 """
@@ -8,7 +8,6 @@ import sys
 rollrig = ctypes.CDLL(sys.argv[1] if len(sys.argv) > 1 else "librollrig.so")
 rollrig.rollrig_last_error.restype = ctypes.c_char_p
 rollrig.rollrig_wheel_create.restype = ctypes.c_void_p
-rollrig.rollrig_run_carry_out.restype = ctypes.c_void_p
 
 
 def check(status):
@@ -50,4 +49,5 @@ print("min  resistance N  liner degC  pressure kPa")
 for minute in range(0, 31, 10):
     print("%3d  %12.2f  %10.1f  %12.1f" % (minute, tire.get("rolling_resistance_N"),
           tire.get("liner_temperature_K") - 273.15, 1e-3 * tire.get("cavity_pressure_Pa")))
-    tire.step(600)
+    if minute < 30:
+        tire.step(600)

@@ -2,17 +2,19 @@
 #define ROLLRIG_C_API_H
 /* rollrig for C, and for languages that call C: MATLAB (loadlibrary), Python (ctypes) and others. See docs/c_api.md.
 
-   Texts are UTF-8 and end with a zero. Functions that return int return ROLLRIG_OK or another status; functions that
-   return a pointer return a null pointer where they fail. rollrig_last_error() then says why. Two threads may use two
-   objects at once, but not one. */
+   Texts are UTF-8 and end with a zero. Functions that create an object return a null pointer where they fail; functions
+   named set, get, start, step, reset, differentiate, save and load return a status. After either failed,
+   rollrig_last_error() says why. Counts, sizes, numbers of variables, names and other texts need no status: of a null
+   object or an unknown number or name they are 0, -1 or a null pointer, and set no error. Two threads may use two
+   objects at once, but not one object. */
 
 #define ROLLRIG_C_API_VERSION 1
 
 /* Statuses, as exit statuses of the program. */
 #define ROLLRIG_OK 0
-#define ROLLRIG_INPUT_ERROR 2 /* what the caller gave is wrong; nothing has changed */
-#define ROLLRIG_RUN_FAILED 3  /* the simulation cannot go on */
-#define ROLLRIG_INTERNAL_ERROR 70
+#define ROLLRIG_INPUT_ERROR 2     /* what the caller gave is wrong; nothing has changed */
+#define ROLLRIG_RUN_FAILED 3      /* the simulation cannot go on; nothing has changed */
+#define ROLLRIG_INTERNAL_ERROR 70 /* a mistake in rollrig */
 
 #ifdef __cplusplus
 #pragma GCC visibility push(default)
@@ -22,11 +24,13 @@ extern "C" {
 /* ROLLRIG_C_API_VERSION of the library. It changes when a function changes or goes away. */
 int rollrig_c_api_version(void);
 
-/* Why the last call of this thread failed; valid until its next call. */
+/* Why this thread's last call that creates an object or returns a status failed; empty if it did not fail. Valid until
+   the next such call of the thread. */
 const char* rollrig_last_error(void);
 
-/* A warm tire on its wheel, whose motion the caller gives. Its variables have names that end with their units, such as
-   "speed_m_s" and "cavity_pressure_Pa", and numbers from 0. */
+/* A warm tire on its wheel, without effects, whose motion the caller gives. Its variables have numbers from 0, and
+   names that end with their units, such as "speed_m_s" and "cavity_pressure_Pa"; ratios have none. "der(x)" is the rate
+   of the state "x", in the unit of "x" per second. docs/fmu.md lists the variables. */
 typedef struct rollrig_wheel rollrig_wheel;
 
 /* tire, rig: the name of an asset, a path, or the text of such a file. */
@@ -41,31 +45,49 @@ const char* rollrig_wheel_variable_role(const rollrig_wheel* wheel, int variable
 /* -1 for a name that no variable has. */
 int rollrig_wheel_find_variable(const rollrig_wheel* wheel, const char* name);
 
-/* Inputs may be set at any time, parameters before rollrig_wheel_start() alone. */
+/* Inputs may be set at any time, parameters only before rollrig_wheel_start(). value: in the unit of the variable's
+   name. Errors: ROLLRIG_INPUT_ERROR for a value that is not allowed, a variable of another role, or a parameter set too
+   late. */
 int rollrig_wheel_set(rollrig_wheel* wheel, int variable, double value);
+/* Outputs and rates are those of the present inputs and states. Errors: ROLLRIG_INPUT_ERROR for an output, a state or a
+   rate before rollrig_wheel_start(); ROLLRIG_RUN_FAILED where the equations give no finite number. */
 int rollrig_wheel_get(rollrig_wheel* wheel, int variable, double* value);
-/* Rate of an input through the next step; then it is 0 again. That of the speed is the input acceleration_m_s2, which
-   stays. */
+/* Slope of an input, in its unit per second, through the next step; then it is 0 again. The slope of the speed is the
+   input acceleration_m_s2, which stays; the acceleration has no slope. Inputs without a slope hold through a step. */
 int rollrig_wheel_set_slope(rollrig_wheel* wheel, int variable, double slope_per_s);
 
-/* Soaks the tire at its temperature at the start. */
+/* Puts the tire at the start: all its temperatures are the parameter start.tire_temperature_degC. After this,
+   parameters are fixed. time_s: any finite number. Errors: ROLLRIG_INPUT_ERROR for parameters that contradict each
+   other. */
 int rollrig_wheel_start(rollrig_wheel* wheel, double time_s);
+/* Goes on by step_s [s], more than 0 and at most 1e5 times steps.longest_s.
+   Equations: docs/physics.md, DrivenWheel; Runge-Kutta of order 4. Validity: docs/limits_of_validity.md.
+   Errors: ROLLRIG_INPUT_ERROR for a step or a slope that is not allowed, ROLLRIG_RUN_FAILED for a state that no tire
+   can have; after either, nothing has changed. */
 int rollrig_wheel_step(rollrig_wheel* wheel, double step_s);
-/* Back to how it was created. */
+/* Back to how it was created: parameters and inputs have their start values, and may be set. */
 int rollrig_wheel_reset(rollrig_wheel* wheel);
 
-/* For a solver of your own: states and their rates, `count` numbers, which is rollrig_wheel_state_count(). */
+/* For a solver of your own: states and their rates, in the units of the variables. count must be
+   rollrig_wheel_state_count(). Errors: ROLLRIG_INPUT_ERROR before rollrig_wheel_start(), for another count, or for a
+   state that is not finite; ROLLRIG_RUN_FAILED for states that no tire can have. */
 int rollrig_wheel_state_count(const rollrig_wheel* wheel);
 int rollrig_wheel_get_states(rollrig_wheel* wheel, double* states, int count);
 int rollrig_wheel_set_states(rollrig_wheel* wheel, const double* states, int count);
 int rollrig_wheel_get_rates(rollrig_wheel* wheel, double* rates, int count);
-/* Derivatives of outputs, states or rates along a direction of inputs and states. */
+/* Directional derivative: derivatives[i] = sum over k of d unknown[i] / d known[k] * direction[k], exact (dual
+   numbers), in the units of the variables. known: inputs and states; unknown: outputs, states and rates. direction has
+   known_count numbers, derivatives unknown_count. Errors: ROLLRIG_INPUT_ERROR before rollrig_wheel_start(), for a
+   variable of another role, or for a direction that is not finite. */
 int rollrig_wheel_differentiate(rollrig_wheel* wheel, const int* unknown, int unknown_count, const int* known,
                                 int known_count, const double* direction, double* derivatives);
 
-/* All of a wheel as bytes, from which one of the same tire and rig goes on. */
+/* All of a wheel as bytes, from which one of the same tire and rig goes on. The size grows at rollrig_wheel_start(). */
 int rollrig_wheel_saved_size(const rollrig_wheel* wheel);
+/* size must be rollrig_wheel_saved_size(). */
 int rollrig_wheel_save(const rollrig_wheel* wheel, char* bytes, int size);
+/* size must be that with which the bytes were saved. Errors: ROLLRIG_INPUT_ERROR for other bytes, or those of another
+   wheel. */
 int rollrig_wheel_load(rollrig_wheel* wheel, const char* bytes, int size);
 
 /* A whole test, as by `rollrig run`. */
@@ -82,6 +104,7 @@ int rollrig_run_row_count(const rollrig_run* run);
 int rollrig_run_channel_count(const rollrig_run* run);
 /* Its heading in recording.csv, which ends with the unit; that of channel 0 is "time_s". */
 const char* rollrig_run_channel_name(const rollrig_run* run, int channel);
+/* Values of a channel, in the unit of its name. count must be rollrig_run_row_count(). NaN: no sample. */
 int rollrig_run_get_channel(const rollrig_run* run, int channel, double* values, int count);
 
 #ifdef __cplusplus

@@ -93,6 +93,9 @@ TEST_CASE("the C API says what is wrong", "[fast]") {
   CHECK(rollrig_wheel_set(tire.get(), 0, std::numeric_limits<double>::quiet_NaN()) == ROLLRIG_INPUT_ERROR);
   CHECK_THAT(rollrig_last_error(), Catch::Contains("speed_m_s"));
   CHECK(rollrig_wheel_variable_name(tire.get(), 100000) == nullptr);
+  CHECK(rollrig_wheel_find_variable(nullptr, "speed_m_s") == -1);
+  CHECK(rollrig_wheel_state_count(nullptr) == 0);
+  CHECK_THAT(rollrig_last_error(), Catch::Contains("speed_m_s"));  // what needs no status sets no error
   CHECK(rollrig_wheel_get(nullptr, 0, nullptr) == ROLLRIG_INPUT_ERROR);
   CHECK(rollrig_wheel_load(tire.get(), "abc", 3) == ROLLRIG_INPUT_ERROR);
   CHECK(rollrig_run_carry_out("{\"scenari\": \"warm_up\"}") == nullptr);
