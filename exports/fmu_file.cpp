@@ -42,9 +42,10 @@ constexpr const char* kDocumentation = R"(<!DOCTYPE html>
 <h1>Warm tire of rollrig</h1>
 <p>One tire on its wheel. Its rolling resistance depends on its temperature, which follows from the heat that rolling
 makes, and from what the tire gives to the air and to the surface.</p>
-<p>Set speed_m_s, load_N, ambient_temperature_K, surface_temperature_K and drive_force_N. The names of variables end with
-their units. Parameters are those of the tire file (resources/tire.toml), and can be set before the initialization ends.
-In co-simulation, the speed goes on by acceleration_m_s2 through a step, and all else holds.</p>
+<p>Set speed_m_s, load_N, ambient_temperature_K, surface_temperature_K and drive_force_N. The name of each variable ends
+with its unit; ratios have none. Parameters are those of the tire file (resources/tire.toml), and can be set before the
+initialization ends. In co-simulation, the speed changes by acceleration_m_s2 through a step, and the other inputs hold
+unless they have a slope.</p>
 </body></html>
 )";
 
