@@ -43,12 +43,20 @@ Recording make_recording(const sim::Recording<double>& recorded) {
   return recording;
 }
 
-/// Single results of a JSON object; `prefix` stands before the keys of records in the scenario's declarations.
+/// Single results of a JSON object, those of an object in it by "tire_file.rrc_N_per_kN". `prefix` stands before the
+/// keys of records in the scenario's declarations.
 std::vector<ResultValue> list_values(const scenarios::Scenario& scenario, const Json& result,
                                      const std::string& prefix = "") {
   std::vector<ResultValue> values;
   for (const auto& [key, value] : result.items()) {
     if (value.is_array()) continue;
+    if (value.is_object()) {
+      for (ResultValue& inner : list_values(scenario, value, prefix + key + ".")) {
+        inner.name = key + "." + inner.name;
+        values.push_back(std::move(inner));
+      }
+      continue;
+    }
     values.push_back({key, plain_name(key), unit_of_key(key).symbol, find_doc(scenario, prefix + key), {}, {}});
     if (value.is_number()) values.back().number = value.get<double>();
     if (value.is_boolean()) values.back().number = value.get<bool>() ? 1.0 : 0.0;
