@@ -182,7 +182,7 @@ std::string name_subject(const SweepInput& input, const scenarios::RunSpec& firs
   const bool has_tires =
       std::any_of(input.axes.begin(), input.axes.end(), [](const SweepAxis& axis) { return axis.key == kTireFactor; });
   const std::string rig = first.scenario->has_rig() ? first.rig.name : "";
-  if (has_tires) return rig.empty() ? "Several tires" : fmt::format("Rig {}", rig);
+  if (has_tires) return rig.empty() ? "Simulated: several tires" : fmt::format("Simulated: several tires, rig {}", rig);
   return fmt::format("Simulated: tire {}, rig {}", first.tire.name, first.rig.name);
 }
 

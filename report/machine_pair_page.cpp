@@ -14,6 +14,14 @@ namespace {
 
 constexpr std::size_t kMostBars = 8;
 
+/// Where their readings differ most.
+std::string describe_readings(const PairFindings& findings) {
+  if (findings.where.empty()) return "their readings differ";
+  const Location& at = findings.where.front();
+  return fmt::format("their readings differ, most in the {}: {:+.2g} {} in run {}", plain_name(at.channel), at.size,
+                     at.unit, at.run);
+}
+
 bool names_cause(const PairFindings& findings) {
   return findings.verdict == PairVerdict::kExplained && !findings.causes.empty();
 }
@@ -66,7 +74,7 @@ Block make_pair_tiles(const PairFindings& findings) {
     tiles.push_back({"They differ in",
                      "an unknown effect",
                      "",
-                     "their readings differ, and no effect that was compared explains it",
+                     describe_readings(findings) + "; no effect that was compared explains it",
                      "bad",
                      {}});
     tiles.push_back({"How sure",

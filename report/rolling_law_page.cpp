@@ -195,13 +195,19 @@ std::vector<Tile> make_reference_tiles(const ForceEstimate& force, const estimat
     loss.note += "; +- is the interval of 95 %";
     loss.from.push_back("/reference/rolling_resistance/half_width_95_N");
   }
-  return {{"RRc at the reference condition",
+  Tile rrc{"RRc at the reference condition",
            fmt::format("{:.3f}", 1e3 * force.value_N / condition.load_N),
            "N/kN",
            fmt::format("at {:.0f} km/h, {}", kKmhPerMs * condition.speed_m_s, describe_reference(condition)),
            "",
-           {"/reference/rrc_N_per_kN"}},
-          std::move(loss)};
+           {"/reference/rrc_N_per_kN"}};
+  if (freedom > 0) {
+    rrc.value +=
+        fmt::format(" +- {:.3f}", 1e3 * estimation::calc_student_reach(freedom) * force.sd_N / condition.load_N);
+    rrc.note += "; +- is the interval of 95 %";
+    rrc.from.push_back("/reference/rrc_half_width_95_N_per_kN");
+  }
+  return {std::move(rrc), std::move(loss)};
 }
 
 /// RRc by the law in the middle of the points, where there is no reference condition.

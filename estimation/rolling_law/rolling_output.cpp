@@ -78,6 +78,14 @@ Json condition_json(const ReferenceCondition& at) {
   return {{"load_N", at.load_N}, {"pressure_kPa", at.pressure_Pa / 1e3}, {"speed_km_h", kKmhPerMs * at.speed_m_s}};
 }
 
+/// RRc at a condition, with half its interval of 95 %.
+void put_coefficient(const ForceEstimate& force, const ReferenceCondition& condition, int freedom, Json& json) {
+  const double per_N = 1e3 / condition.load_N;
+  json["rrc_N_per_kN"] = per_N * force.value_N;
+  json["rrc_half_width_95_N_per_kN"] =
+      freedom > 0 ? law_number(per_N * calc_student_reach(freedom) * force.sd_N) : Json();
+}
+
 void put_end(const RollingTest& test, const std::vector<FittedPoint>& points, const std::vector<std::string>& warnings,
              Json& json) {
   json["points"] = law_points_json(points);
@@ -115,7 +123,7 @@ Json make_j2452_json(const RollingTest& test, const J2452Fit& fit, const std::op
     const int freedom = fit.statistics.freedom;
     Json at = condition_json(reference->condition);
     at["rolling_resistance"] = force_json(reference->force, freedom);
-    at["rrc_N_per_kN"] = 1e3 * reference->force.value_N / reference->condition.load_N;
+    put_coefficient(reference->force, reference->condition, fit.statistics.freedom, at);
     at["merf_urban"] = force_json(reference->urban, freedom);
     at["merf_urban"]["cycle"] = reference->cycles.urban_cycle;
     at["merf_highway"] = force_json(reference->highway, freedom);
@@ -142,7 +150,7 @@ Json make_multipoint_json(const RollingTest& test, const MultipointFit& fit,
   if (reference.has_value()) {
     Json at = condition_json(reference->condition);
     at["rolling_resistance"] = force_json(reference->force, fit.statistics.freedom);
-    at["rrc_N_per_kN"] = 1e3 * reference->force.value_N / reference->condition.load_N;
+    put_coefficient(reference->force, reference->condition, fit.statistics.freedom, at);
     json["reference"] = at;
   }
   put_end(test, fit.points, fit.warnings, json);
