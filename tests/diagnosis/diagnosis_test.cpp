@@ -238,7 +238,7 @@ TEST_CASE("sets of the independent generator without effect have no gap", "[slow
 }
 
 TEST_CASE("of a set by the independent generator the same answer from one thread or two, and in another order",
-          "[slow]") {
+          "[weekly]") {
   const measurements::MeasurementSet set =
       tests::make_generated_set("--effect rim_heat,slow_leak --seed 33 --runs 4").set;
   DiagnosisOptions options;
