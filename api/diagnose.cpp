@@ -27,6 +27,8 @@ Diagnosis diagnose(const MeasurementSet& set, const DiagnosisOptions& options) {
 
 FleetDiagnosis diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options,
                               BadRows bad_rows) {
+  if (folders.empty())
+    throw InputError({"there is no set to diagnose", "", 0, "", "", "the folder of one set at least", ""});
   const auto fleet = std::make_shared<const diagnosis::Fleet>(diagnosis::diagnose_fleet(folders, options, bad_rows));
   FleetDiagnosis result;
   result.members = fleet->members;

@@ -65,10 +65,14 @@ void require_once(const SweepInput& input) {
   }
 }
 
-/// Refuses more points than memory and a result of one table hold, before any is made.
+/// Refuses an axis without values, and more points than memory and a result of one table hold, before any is made.
 void require_few_points(const std::vector<SweepAxis>& axes) {
   std::size_t points = 1;
   for (const SweepAxis& axis : axes) {
+    if (axis.values.empty()) {
+      throw InputError({fmt::format("'{}' has no values", axis.key), "command line", 0, "--vary", axis.key,
+                        "one value at least", ""});
+    }
     points *= axis.values.size();  // no overflow: below, and an axis has not so many values
     if (points <= kMostSweepPoints) continue;
     std::vector<std::string> counts;

@@ -112,7 +112,8 @@ bool is_output(fmu::Role role) { return role == fmu::Role::kOutput || role == fm
 void set_real(const Element& element, const fmu::Variable& variable, std::size_t state) {
   const std::string unit = name_unit(variable);
   if (!unit.empty()) element.set("unit", unit);
-  if (unit == "K") element.set("displayUnit", "degC");
+  const bool is_temperature = variable.name.find("temperature") != std::string::npos;  // and no difference of two
+  if (unit == "K" && is_temperature) element.set("displayUnit", "degC");
   if (unit == "Pa") element.set("displayUnit", "kPa");
   if (std::isfinite(variable.range.lower) && !variable.range.lower_open) element.set("min", variable.range.lower);
   if (std::isfinite(variable.range.upper) && !variable.range.upper_open) element.set("max", variable.range.upper);

@@ -1,5 +1,6 @@
 #include "fmu/saved_state.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -10,18 +11,14 @@ namespace {
 
 struct Head {
   char mark[8] = {'R', 'R', 'W', 'H', 'E', 'E', 'L', '1'};
-  std::uint64_t checksum = 0;  // of all after the head
+  std::uint64_t checksum = 0;  // of all behind it
+  std::uint64_t wheel = 0;
   std::uint64_t stage = 0;
   std::uint64_t counts[4] = {};  // parameters, inputs, slopes, states
   double time_s = 0.0;
 };
 
-/// FNV-1a: finds bytes that were cut or changed by accident.
-std::uint64_t calc_checksum(const char* bytes, std::size_t size) {
-  std::uint64_t sum = 14695981039346656037u;
-  for (std::size_t i = 0; i < size; ++i) sum = (sum ^ static_cast<unsigned char>(bytes[i])) * 1099511628211u;
-  return sum;
-}
+constexpr std::size_t kChecked = offsetof(Head, wheel);  // from here on, the checksum covers the bytes
 
 /// Calls visit(list) for each list of numbers.
 template <class Wheel, class Visit>
@@ -56,7 +53,9 @@ std::vector<char> serialize(const SavedState& state) {
     if (!list.empty()) std::memcpy(end, list.data(), list.size() * sizeof(double));
     end += list.size() * sizeof(double);
   });
-  head.checksum = calc_checksum(bytes.data() + sizeof(Head), bytes.size() - sizeof(Head));
+  head.wheel = state.wheel.wheel;
+  std::memcpy(bytes.data(), &head, sizeof(Head));
+  head.checksum = calc_checksum(bytes.data() + kChecked, bytes.size() - kChecked);
   std::memcpy(bytes.data(), &head, sizeof(Head));
   return bytes;
 }
@@ -73,12 +72,13 @@ SavedState deserialize(const char* bytes, std::size_t size) {
     left -= static_cast<std::size_t>(count);
   }
   if (left != 0 || (size - sizeof(Head)) % sizeof(double) != 0 || head.stage > 100 ||
-      head.checksum != calc_checksum(bytes + sizeof(Head), size - sizeof(Head))) {
+      head.checksum != calc_checksum(bytes + kChecked, size - kChecked)) {
     throw not_a_state();
   }
   SavedState state;
   state.stage = static_cast<int>(head.stage);
   state.wheel.time_s = head.time_s;
+  state.wheel.wheel = head.wheel;
   const char* from = bytes + sizeof(Head);
   const std::uint64_t* count = head.counts;
   visit_lists(state.wheel, [&](std::vector<double>& list) {

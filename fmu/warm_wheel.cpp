@@ -137,6 +137,8 @@ struct WarmWheel::Simulation {
 };
 
 WarmWheel::WarmWheel(const WheelModel& model) : original_model_(model), model_(model) {
+  const std::string text = write_wheel_model(model);
+  checksum_ = calc_checksum(text.data(), text.size());
   list_variables();
   reset();
 }
@@ -443,15 +445,16 @@ std::vector<double> WarmWheel::differentiate(const std::vector<std::size_t>& unk
 }
 
 Snapshot WarmWheel::take_snapshot() const {
-  Snapshot snapshot{{}, inputs_, input_slopes_, states_, time_s_};
+  Snapshot snapshot{{}, inputs_, input_slopes_, states_, time_s_, checksum_};
   for (const double* parameter : parameters_) snapshot.parameters.push_back(*parameter);
   return snapshot;
 }
 
 void WarmWheel::restore(const Snapshot& snapshot) {
   const bool has_states = !snapshot.states.empty();
-  if (snapshot.parameters.size() != parameters_.size() || snapshot.inputs.size() != inputs_.size() ||
-      snapshot.input_slopes.size() != inputs_.size() || (has_states && snapshot.states.size() != state_count_)) {
+  if (snapshot.wheel != checksum_ || snapshot.parameters.size() != parameters_.size() ||
+      snapshot.inputs.size() != inputs_.size() || snapshot.input_slopes.size() != inputs_.size() ||
+      (has_states && snapshot.states.size() != state_count_)) {
     throw InputError({"the state is one of another wheel", "", 0, "", "", "a state of this wheel", ""});
   }
   require_finite(snapshot.time_s, "time");

@@ -3,6 +3,7 @@
 /// behind the C API and the FMU.
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct Snapshot {
   std::vector<double> input_slopes;
   std::vector<double> states;  // empty before initialize()
   double time_s = 0.0;
+  std::uint64_t wheel = 0;  // checksum of the numbers that its wheel was made of
 };
 
 /// One wheel. Two threads may use two wheels at once, but not one wheel.
@@ -118,7 +120,8 @@ class WarmWheel {
   sim::Segment make_segment(double duration_s) const;
   void evaluate();
 
-  WheelModel original_model_;  // for reset()
+  WheelModel original_model_;   // for reset()
+  std::uint64_t checksum_ = 0;  // of the original model
   WheelModel model_;
   std::vector<double*> parameters_;  // into model_, SI
   std::vector<Variable> variables_;

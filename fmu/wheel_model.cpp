@@ -51,6 +51,12 @@ const Known& find_known(const std::vector<const Known*>& all, std::string_view i
 
 }  // namespace
 
+std::uint64_t calc_checksum(const char* bytes, std::size_t size) {
+  std::uint64_t sum = 14695981039346656037u;
+  for (std::size_t i = 0; i < size; ++i) sum = (sum ^ static_cast<unsigned char>(bytes[i])) * 1099511628211u;
+  return sum;
+}
+
 std::string write_wheel_model(const WheelModel& model) {
   const models::TireParameters<double>& tire = model.context.tire;
   const models::MachineTraits& machine = model.context.machine;

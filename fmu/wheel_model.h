@@ -1,6 +1,7 @@
 #pragma once
 /// What a warm wheel is made of: the numbers of its tire, of the surface under it, of effects, and how it starts.
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,9 @@ struct WheelModel {
     }
   }
 };
+
+/// FNV-1a: tells bytes that were cut or changed by accident, and models that differ.
+std::uint64_t calc_checksum(const char* bytes, std::size_t size);
 
 /// As text, which read_wheel_model() reads to the same numbers, bit by bit.
 std::string write_wheel_model(const WheelModel& model);

@@ -11,7 +11,7 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, make_run_input, take_given
+from .settings import PathLike, make_run_input, take_given, to_names
 from .sweeps import Values, make_axes
 
 
@@ -120,7 +120,7 @@ def new_diagnosis_campaign(folder: PathLike, sets: Sequence[PathLike], *,
     :members DiagnosisCampaignInput
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    options = {"sets": [os.fspath(each) for each in sets], "only": [*only], "without": [*without],
+    options = {"sets": [os.fspath(each) for each in sets], "only": to_names(only), "without": to_names(without),
                "smallest_effect_percent": smallest_effect_percent, "skip_bad_rows": skip_bad_rows}
     _rollrig.define_diagnosis_campaign(os.fspath(folder), take_given(options))
     return Campaign(folder)

@@ -11,7 +11,7 @@ from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
 from .sets import MeasurementSet, as_set
-from .settings import PathLike, take_given
+from .settings import PathLike, take_given, to_names
 
 
 class Diagnosis(Report):
@@ -78,7 +78,7 @@ def diagnose(set: MeasurementSet | PathLike, *, only: Sequence[str] = (), withou
     :members DiagnosisOptions
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    given = {"only": [*only], "without": [*without], "threads": threads,
+    given = {"only": to_names(only), "without": to_names(without), "threads": threads,
              "smallest_effect_percent": smallest_effect_percent}
     with progress_display(progress) as show:
         return Diagnosis(_rollrig.diagnose(show, as_set(set, skip_bad_rows)._set, take_given(given)))
@@ -93,7 +93,7 @@ def diagnose_fleet(folders: Sequence[PathLike], *, only: Sequence[str] = (), wit
     :members DiagnosisOptions
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    given = {"only": [*only], "without": [*without], "threads": threads,
+    given = {"only": to_names(only), "without": to_names(without), "threads": threads,
              "smallest_effect_percent": smallest_effect_percent}
     with progress_display(progress) as show:
         return Report(_rollrig.diagnose_fleet(show, [os.fspath(each) for each in folders], skip_bad_rows,
@@ -109,7 +109,7 @@ def diagnose_pair(a: MeasurementSet | PathLike, b: MeasurementSet | PathLike, *,
     :members DiagnosisOptions
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    given = {"only": [*only], "without": [*without], "threads": threads}
+    given = {"only": to_names(only), "without": to_names(without), "threads": threads}
     with progress_display(progress) as show:
         return Report(_rollrig.diagnose_pair(show, as_set(a, skip_bad_rows)._set, as_set(b, skip_bad_rows)._set,
                                              take_given(given)))
@@ -126,8 +126,8 @@ def advance_loop(set: PathLike, folder: PathLike, *, hours: float | None = None,
     :members DiagnosisOptions
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    given = {"set": set, "folder": folder, "hours": hours, "test_failed": test_failed, "only": [*only],
-             "without": [*without], "threads": threads, "smallest_effect_percent": smallest_effect_percent,
+    given = {"set": set, "folder": folder, "hours": hours, "test_failed": test_failed, "only": to_names(only),
+             "without": to_names(without), "threads": threads, "smallest_effect_percent": smallest_effect_percent,
              "skip_bad_rows": skip_bad_rows}
     with progress_display(progress) as show:
         return Loop(_rollrig.advance_loop(show, take_given(given)))
@@ -141,8 +141,8 @@ def plan_campaign(*, rig: Name = None, tire: Name = None, vehicle: Name = None, 
 
     :members CampaignInput
     """
-    given = {"rig": rig, "tire": tire, "vehicle": vehicle, "sensors": sensors, "hours": hours, "only": [*only],
-             "without": [*without], "threads": threads}
+    given = {"rig": rig, "tire": tire, "vehicle": vehicle, "sensors": sensors, "hours": hours, "only": to_names(only),
+             "without": to_names(without), "threads": threads}
     with progress_display(progress) as show:
         return Report(_rollrig.plan_campaign(show, take_given(given)))
 

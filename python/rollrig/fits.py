@@ -54,12 +54,15 @@ def fit_road_load(file: PathLike, *, mass_kg: float | None = None, rotating_mass
                   reference_pressure_Pa: float | None = None, rolling_fall_per_K: float | None = None,
                   speed_from_m_s: float | None = None, speed_to_m_s: float | None = None,
                   bin_width_m_s: float | None = None, bounds: tuple[Abc, Abc] | None = None,
-                  target: Abc | None = None, leave_out: Sequence[str] = (), recorded_vehicle: bool = False,
+                  target: Abc | None = None, leave_out: Sequence[str] = (), per_mass: bool = False,
                   sessions: Sequence[str] = (), skip_bad_rows: bool = False, uncertainty: bool = False,
                   monte_carlo: int = 0, threads: int = 0, progress: Progress = None) -> Fit:
     """A, B, C of a vehicle by least squares.
 
     :api fit_road_load
+
+    * per_mass: forces per unit of effective mass; no mass is needed. Without a mass and without this, the file has to
+      be a recording, which tells the vehicle.
 
     :members RoadLoadFitOptions
     """
@@ -67,7 +70,7 @@ def fit_road_load(file: PathLike, *, mass_kg: float | None = None, rotating_mass
              "reference_temperature_K": reference_temperature_K, "reference_pressure_Pa": reference_pressure_Pa,
              "rolling_fall_per_K": rolling_fall_per_K, "speed_from_m_s": speed_from_m_s,
              "speed_to_m_s": speed_to_m_s, "bin_width_m_s": bin_width_m_s, "bounds": bounds, "target": target,
-             "leave_out": [*leave_out], "recorded_vehicle": recorded_vehicle}
+             "leave_out": [*leave_out], "recorded_vehicle": mass_kg is None and not per_mass}
     with progress_display(progress) as show:
         return Fit(_rollrig.fit_road_load(show, os.fspath(file), "", [*sessions], skip_bad_rows,
                                           make_uncertainty_options(uncertainty, monte_carlo, threads),

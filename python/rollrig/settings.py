@@ -15,6 +15,8 @@ def to_text(value: Any) -> str:
         value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, Mapping):
+        return "{}"  # an empty one: an effect without numbers, or a wrong name
     if isinstance(value, float):
         return float.__repr__(value)
     if isinstance(value, (str, os.PathLike)):
@@ -31,10 +33,15 @@ def _to_element(value: Any) -> str:
 def list_settings(settings: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
     """Each as "key=value". A mapping stands for keys with a dot: effects={"bearing_warmup": {"fall_per_K": 0.02}}."""
     for key, value in settings.items():
-        if isinstance(value, Mapping):
+        if isinstance(value, Mapping) and value:
             yield from list_settings(value, f"{prefix}{key}.")
         elif value is not None:
             yield f"{prefix}{key}={to_text(value)}"
+
+
+def to_names(names: str | Iterable[str]) -> list[str]:
+    """A list of names; of one text those between its commas, as on the command line."""
+    return [name.strip() for name in names.split(",")] if isinstance(names, str) else [*names]
 
 
 def take_given(arguments: Mapping[str, Any]) -> dict[str, Any]:

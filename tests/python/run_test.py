@@ -85,6 +85,17 @@ class Settings(InFolder):
         self.assertEqual(settings["settings"]["speeds_km_h"], [80.0, 120.0])
         self.assertEqual(settings["effects"]["bearing_warmup"]["fall_per_K"], 0.02)
 
+    def test_a_wrong_effect_is_refused_without_numbers_too(self):
+        with self.assertRaises(rollrig.InputError) as caught:
+            rollrig.run("transient_skim", tire="a50", effects={"slip_los": {}})
+        self.assertEqual(caught.exception.nearest, "slip_loss")
+
+    def test_no_values_and_no_sets_are_refused(self):
+        with self.assertRaises(rollrig.InputError):
+            rollrig.sweep("iso_28580", tire="a50", vary={"pressure_kPa": []})
+        with self.assertRaises(rollrig.InputError):
+            rollrig.diagnose_fleet([])
+
     def test_a_wrong_one_says_what_is_allowed_and_what_is_near(self):
         with self.assertRaises(rollrig.Error) as caught:
             rollrig.run("iso_28580", tire="a50", presure_kPa=210)
