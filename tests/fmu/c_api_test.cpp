@@ -55,6 +55,19 @@ TEST_CASE("a wheel of the C API warms up, is kept and goes on", "[fast]") {
   REQUIRE(rollrig_wheel_load(other.get(), bytes.data(), static_cast<int>(bytes.size())) == ROLLRIG_OK);
   REQUIRE(rollrig_wheel_step(other.get(), 60.0) == ROLLRIG_OK);
   CHECK(get(other, "liner_temperature_K") == get(tire, "liner_temperature_K"));
+
+  // Another tire, another rig, and bytes of which one is another.
+  const int size = static_cast<int>(bytes.size());
+  for (const auto& [name, rig] : {std::pair("a60", "drum_2m"), std::pair("a50", "road")}) {
+    const WheelPointer strange(rollrig_wheel_create(name, rig));
+    CHECK(rollrig_wheel_load(strange.get(), bytes.data(), size) == ROLLRIG_INPUT_ERROR);
+    CHECK_THAT(rollrig_last_error(), Catch::Contains("another wheel"));
+  }
+  for (std::size_t at = 0; at < bytes.size(); at += 7) {
+    bytes[at] = static_cast<char>(bytes[at] ^ 4);
+    CHECK(rollrig_wheel_load(other.get(), bytes.data(), size) == ROLLRIG_INPUT_ERROR);
+    bytes[at] = static_cast<char>(bytes[at] ^ 4);
+  }
 }
 
 TEST_CASE("a solver of one's own finds states, rates and derivatives in the C API", "[fast]") {
