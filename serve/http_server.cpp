@@ -40,7 +40,7 @@ void AnswerThreads::work_off() {
     {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return is_ending_ || !waiting_.empty(); });
-      if (is_ending_) return;  // who still waits is not answered: the server ends soon
+      if (waiting_.empty()) return;  // the server ends: connections that still wait are closed, as their reads fail
       answer = std::move(waiting_.front());
       waiting_.pop_front();
     }
