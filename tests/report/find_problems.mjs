@@ -9,6 +9,7 @@ export const kFindProblems = `(() => {
 
   // Texts of charts: those of axes, titles and legends stay apart, and inside of their chart.
   for (const chart of document.querySelectorAll('.chart')) {
+    if (chart.offsetParent === null) continue; // of a part that is not shown
     const frame = chart.getBoundingClientRect();
     if (frame.height < 80) problems.add('a chart of ' + Math.round(frame.height) + ' px height');
     const texts = [...chart.querySelectorAll('svg text')].map((text) => ({ text: text.textContent, box: text.getBoundingClientRect() })).filter(({ text, box }) => text.trim() && box.width > 0);

@@ -197,7 +197,7 @@ const std::string kQuick = " --tire a50 --fidelity quasi_static ";
 
 }  // namespace
 
-TEST_CASE("every kind of page of a run and of several runs", "[slow]") {
+TEST_CASE("every kind of page of a run and of several runs", "[weekly]") {
   const TemporaryFolder folder;
   fs::create_directory(folder.file("runs"));
   for (const char* file : {"skim_a40.toml", "skim_a40.golden.csv", "iso_28580_a50_quasi_static.toml"}) {
@@ -226,7 +226,7 @@ TEST_CASE("every kind of page of a run and of several runs", "[slow]") {
        {"morris", "campaign sensitivity morris --result rrc_N_per_kN"}});
 }
 
-TEST_CASE("every kind of page of a comparison and of a fit", "[slow]") {
+TEST_CASE("every kind of page of a comparison and of a fit", "[weekly]") {
   const TemporaryFolder folder;
   for (const char* tire : {"a40", "a50"}) {
     prepare(folder, fmt::format("run iso_28580 --fidelity quasi_static --tire {0} --sensors source --uncertainty --out "
@@ -248,7 +248,7 @@ TEST_CASE("every kind of page of a comparison and of a fit", "[slow]") {
        {"align", "align " + kExamples + "alignment.csv --reference-machine drum_A --reference 1.003 -0.05"}});
 }
 
-TEST_CASE("every kind of page of a diagnosis and of a plan", "[slow]") {
+TEST_CASE("every kind of page of a diagnosis and of a plan", "[weekly]") {
   const TemporaryFolder folder;
   write_effect_set(folder, "set", "--set effects.bearing_warmup.fall_per_K=0.03");
   std::string rig = read_file(std::string(ROLLRIG_SOURCE_DIR) + "/assets/rigs/drum_2m.toml");
@@ -264,4 +264,14 @@ TEST_CASE("every kind of page of a diagnosis and of a plan", "[slow]") {
                        {"pair", "diagnose set --against set_B" + only},
                        {"loop", "diagnose set --loop tests --hours 8" + only},
                        {"plan", "plan --rig drum --hours 8" + only}});
+}
+
+TEST_CASE("pages of a run, a sweep, a comparison, a fit and a diagnosis", "[slow]") {  // the others: weekly
+  const TemporaryFolder folder;
+  write_effect_set(folder, "set", "--set effects.bearing_warmup.fall_per_K=0.03");
+  check_kinds(folder, {{"coastdown", "run coastdown --set pairs=2" + kQuick},
+                       {"grid", "sweep iso_28580 --vary pressure_kPa=230:270:20 --vary ambient_degC=20:30:5" + kQuick},
+                       {"numbers", "compare a40 a50"},
+                       {"j2452", "fit j2452 " + kExamples + "j2452_points.csv --maximum-load 6570 --base-pressure 240"},
+                       {"diagnosis", "diagnose set --only bearing_warmup,torque_gain", "--charts 3"}});
 }
