@@ -145,8 +145,7 @@ Compared compare_sets(const std::vector<MeasurementSet>& sets, const std::vector
       "means over the times of a phase that both runs have, from its beginning; the difference sample by sample. Its "
       "interval of 95 % is from the means of eight blocks about a straight line, and not narrower than noise and drift "
       "by the sets' sensors make it. It contains the zeros of the sensors (offset_sd), which differ from session to "
-      "session; "
-      "in what is less skim they cancel. Runs are taken to be independent of each other");
+      "session; in what is less skim they cancel. Runs are taken to be independent of each other");
   const std::optional<std::size_t> main = find_main_mean(comparison.values, sets.front().kind->traits.force, of_groups);
   if (main.has_value()) {
     choose_main(*main, compared);

@@ -220,16 +220,14 @@ fmi2Status fmi2SetTime(fmi2Component component, fmi2Real time_s) {
 
 fmi2Status fmi2SetContinuousStates(fmi2Component component, const fmi2Real states[], size_t count) {
   return run_fmi2(component, "fmi2SetContinuousStates", kContinuous, [&](Instance& instance) {
-    instance.require_state_count(count);
-    require_given(states, count);
+    instance.require_states(states, count);
     instance.wheel.set_states(states);
   });
 }
 
 fmi2Status fmi2GetDerivatives(fmi2Component component, fmi2Real derivatives[], size_t count) {
   return run_fmi2(component, "fmi2GetDerivatives", kEvents | kContinuous, [&](Instance& instance) {
-    instance.require_state_count(count);
-    require_given(derivatives, count);
+    instance.require_states(derivatives, count);
     instance.wheel.get_rates(derivatives);
   });
 }
@@ -242,16 +240,14 @@ fmi2Status fmi2GetEventIndicators(fmi2Component component, fmi2Real[], size_t co
 
 fmi2Status fmi2GetContinuousStates(fmi2Component component, fmi2Real states[], size_t count) {
   return run_fmi2(component, "fmi2GetContinuousStates", kEvents | kContinuous, [&](Instance& instance) {
-    instance.require_state_count(count);
-    require_given(states, count);
+    instance.require_states(states, count);
     instance.wheel.get_states(states);
   });
 }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component component, fmi2Real nominals[], size_t count) {
   return run_fmi2(component, "fmi2GetNominalsOfContinuousStates", kNotTerminated, [&](Instance& instance) {
-    instance.require_state_count(count);
-    require_given(nominals, count);
+    instance.require_states(nominals, count);
     instance.get_nominals(nominals);
   });
 }

@@ -268,16 +268,14 @@ fmi3Status fmi3SetTime(fmi3Instance given, fmi3Float64 time_s) {
 
 fmi3Status fmi3SetContinuousStates(fmi3Instance given, const fmi3Float64 states[], size_t count) {
   return run_fmi3(given, "fmi3SetContinuousStates", kContinuous, [&](Instance& instance) {
-    instance.require_state_count(count);
-    require_given(states, count);
+    instance.require_states(states, count);
     instance.wheel.set_states(states);
   });
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance given, fmi3Float64 derivatives[], size_t count) {
   return run_fmi3(given, "fmi3GetContinuousStateDerivatives", kAfterStart, [&](Instance& instance) {
-    instance.require_state_count(count);
-    require_given(derivatives, count);
+    instance.require_states(derivatives, count);
     instance.wheel.get_rates(derivatives);
   });
 }
@@ -288,16 +286,14 @@ fmi3Status fmi3GetEventIndicators(fmi3Instance given, fmi3Float64[], size_t coun
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance given, fmi3Float64 states[], size_t count) {
   return run_fmi3(given, "fmi3GetContinuousStates", kAfterStart, [&](Instance& instance) {
-    instance.require_state_count(count);
-    require_given(states, count);
+    instance.require_states(states, count);
     instance.wheel.get_states(states);
   });
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance given, fmi3Float64 nominals[], size_t count) {
   return run_fmi3(given, "fmi3GetNominalsOfContinuousStates", kNotTerminated, [&](Instance& instance) {
-    instance.require_state_count(count);
-    require_given(nominals, count);
+    instance.require_states(nominals, count);
     instance.get_nominals(nominals);
   });
 }

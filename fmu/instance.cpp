@@ -181,10 +181,12 @@ void Instance::set_state(void* state) {
   stage = wanted;
 }
 
-void Instance::require_state_count(std::size_t count) const {
-  if (count == wheel.state_count()) return;
-  throw InputError({"the number of states is wrong", "", 0, "", fmt::format("{}", count),
-                    fmt::format("{}", wheel.state_count()), ""});
+void Instance::require_states(const void* numbers, std::size_t count) const {
+  if (count != wheel.state_count()) {
+    throw InputError({"the number of states is wrong", "", 0, "", fmt::format("{}", count),
+                      fmt::format("{}", wheel.state_count()), ""});
+  }
+  require_given(numbers, count);
 }
 
 void free_state(void** state) noexcept {

@@ -62,7 +62,8 @@ struct Instance {
   void get_state(void** state) const;
   /// Goes on from a SavedState that the importer holds.
   void set_state(void* state);
-  void require_state_count(std::size_t count) const;
+  /// Throws InputError where there is no room for exactly the states of the wheel.
+  void require_states(const void* numbers, std::size_t count) const;
 
   WarmWheel wheel;
   bool is_co_simulation;

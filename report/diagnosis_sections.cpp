@@ -124,12 +124,15 @@ Block make_ranking(const Findings& findings) {
   return make_table(table);
 }
 
+/// Whether a first cause is shown: named, or only what the gap looks most like.
+bool shows_cause(const Findings& findings) { return findings.verdict != Verdict::kNoGap && !findings.causes.empty(); }
+
 /// On what gap.recalibrated is.
 const char* name_judge(const Findings& findings) {
   const Gap& gap = findings.gap;
-  const bool has_cause = findings.verdict != Verdict::kNoGap && !findings.causes.empty();
   if (gap.judged_by == JudgedBy::kStretches) return "stretches left out of the fit";
-  if (gap.judged_by == JudgedBy::kRuns || (!has_cause && !gap.held_out.empty())) return "runs left out of the fit";
+  if (gap.judged_by == JudgedBy::kRuns || (!shows_cause(findings) && !gap.held_out.empty()))
+    return "runs left out of the fit";
   return "fitted data";
 }
 
@@ -138,8 +141,7 @@ std::string describe_judge(const Findings& findings) {
   const Gap& gap = findings.gap;
   if (gap.judged_by == JudgedBy::kStretches) return "Judged on stretches, each left out of the fit in turn.";
   if (gap.held_out.empty()) return "There is one run, so nothing can be left out: judged on the fitted data.";
-  const bool has_cause = findings.verdict != Verdict::kNoGap && !findings.causes.empty();
-  if (has_cause && gap.judged_by == JudgedBy::kNothing) {
+  if (shows_cause(findings) && gap.judged_by == JudgedBy::kNothing) {
     return "Nothing that is left out is predicted well enough to judge the cause: shown on the fitted data.";
   }
   const std::vector<std::string>& runs = gap.judged_by == JudgedBy::kRuns ? gap.judged_on : gap.held_out;
@@ -312,7 +314,7 @@ std::vector<Tile> make_gap_tiles(const Findings& findings) {
 Block make_gap_bars(const Findings& findings) {
   const Gap& gap = findings.gap;
   Json series = Json::array({{{"name", "recalibrated"}, {"values", {rounded(gap.recalibrated.before)}}}});
-  if (findings.verdict != Verdict::kNoGap && !findings.causes.empty()) {
+  if (shows_cause(findings)) {
     series.push_back({{"name", "recalibrated, with the cause"}, {"values", {rounded(gap.recalibrated.after)}}});
   }
   return make_bars({"Gap: measured less simulated, without noise", "noise floors"}, {name_judge(findings)}, series,
@@ -400,13 +402,12 @@ Section make_base_numbers(const Findings& findings) {
 
 Section make_gap(const Findings& findings) {
   const Gap& gap = findings.gap;
-  const bool has_cause = findings.verdict != Verdict::kNoGap && !findings.causes.empty();
   Section section{"Before and after", describe_judge(findings)};
   for (Block& block : make_gap_waterfalls(gap)) section.blocks.push_back(std::move(block));
   const auto percent = [](const std::optional<double>& value) {
     return value.has_value() ? fmt::format("{:.0f} %", *value) : std::string("not above the noise");
   };
-  const bool is_unjudged = has_cause && gap.judged_by == JudgedBy::kNothing;
+  const bool is_unjudged = shows_cause(findings) && gap.judged_by == JudgedBy::kNothing;
   std::string shrinks =
       is_unjudged ? "not known: nothing left out is predicted well enough" : percent(gap.shrink_percent);
   if (gap.shrink_percent.has_value()) {
@@ -417,12 +418,12 @@ Section make_gap(const Findings& findings) {
                {{"The cause takes from the recalibrated gap", shrinks},
                 {"Recalibration alone takes from the gap", percent(gap.recalibration_percent)},
                 {"A smooth function of the inputs takes", percent(gap.black_box_percent)}}};
-  if (has_cause && gap.left_out_nats.has_value()) {
+  if (shows_cause(findings) && gap.left_out_nats.has_value()) {
     shares.rows.push_back({"What was left out is likelier with the cause", diagnosis::show_factor(*gap.left_out_nats)});
   }
   section.blocks.push_back(make_table(shares));
-  if (has_cause && gap.fitted.has_value()) section.blocks.push_back(make_shrinkages(gap));
-  if (has_cause && !gap.not_judged.empty()) {
+  if (shows_cause(findings) && gap.fitted.has_value()) section.blocks.push_back(make_shrinkages(gap));
+  if (shows_cause(findings) && !gap.not_judged.empty()) {
     std::vector<std::string> runs;
     for (const UnjudgedRun& at : gap.not_judged) {
       runs.push_back(at.alone_in.empty() ? at.run : fmt::format("{} (alone in {})", at.run, join(at.alone_in)));
