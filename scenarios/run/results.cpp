@@ -129,7 +129,7 @@ void ResultSheet::add(const ResultList& list, const ResultSheet& declared, const
 }
 
 void ResultSheet::declare_total(const ResultList& list, const ResultSheet& declared) {
-  infos.push_back({make_total_key(list), fmt::format("all of {} together", list.key)});
+  infos.push_back({make_total_key(list), fmt::format("all of {} together; a number that has no sum is left out", list.key)});
   for (const ResultInfo& info : declared.infos) {
     infos.push_back({fmt::format("{}.{}", make_total_key(list), info.key), info.doc});
   }

@@ -36,7 +36,7 @@ TEST_CASE("a set is written, validated and fitted", "[slow]") {
   const auto& parameters = result["parameters"];
   CHECK(std::count_if(parameters.begin(), parameters.end(), [](const json& at) { return !at["nuisance"]; }) == 6);
   CHECK(result["at_speeds"].size() == 2);
-  CHECK_THAT(fit.out, Contains("heat_capacity *") && Contains("class"));
+  CHECK_THAT(fit.out, Contains("heat capacity *") && Contains("class"));
   CHECK(run_program("run iso_28580 --tire fitted/mine.toml", folder.path()).status == 0);
 }
 
