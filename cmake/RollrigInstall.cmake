@@ -7,7 +7,7 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME runtime)
 # the same folders as the prefix, so that a program needs no other path when it is installed. (CMake would append an
 # empty entry to a path that it is to replace, and the loader would look for libraries in the working folder.)
 file(RELATIVE_PATH rollrig_libraries_from_programs "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(rollrig_cvodes rollrig_multibody rollrig_library PROPERTIES
+set_target_properties(rollrig_cvodes ${rollrig_loaded_libraries} rollrig_library PROPERTIES
   LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}" INSTALL_RPATH "$ORIGIN")
 set(rollrig_programs rollrig rollrig_serve_program)
 if(ROLLRIG_MPI_FOUND AND NOT ROLLRIG_DEBIAN_PACKAGES)  # a package would depend on Open MPI for all users
@@ -15,7 +15,7 @@ if(ROLLRIG_MPI_FOUND AND NOT ROLLRIG_DEBIAN_PACKAGES)  # a package would depend 
 endif()
 set_target_properties(${rollrig_programs} PROPERTIES INSTALL_RPATH "$ORIGIN/${rollrig_libraries_from_programs}")
 if(NOT ROLLRIG_DEBIAN_PACKAGES)  # packages have no such path at all, since their libraries are the system's
-  set_target_properties(${rollrig_programs} rollrig_multibody rollrig_library PROPERTIES BUILD_WITH_INSTALL_RPATH ON)
+  set_target_properties(${rollrig_programs} ${rollrig_loaded_libraries} rollrig_library PROPERTIES BUILD_WITH_INSTALL_RPATH ON)
 endif()
 install(TARGETS ${rollrig_programs} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(DIRECTORY assets/ DESTINATION "${CMAKE_INSTALL_DATADIR}/rollrig/assets")
@@ -34,10 +34,11 @@ install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" FILES_MATCHING PATT
 # A Debian package has them as copyright and changelog.gz.
 install(FILES LICENSE CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT source_documents)
 
-# The library: rollrig::rollrig, and behind it CVODES (sim/CMakeLists.txt) and Simbody (rigs/CMakeLists.txt).
+# The library: rollrig::rollrig, and behind it CVODES (sim/CMakeLists.txt) and what is
+# loaded when it is needed (cmake/RollrigLoadedLibraries.cmake).
 install(TARGETS rollrig_library EXPORT rollrigTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" NAMELINK_COMPONENT development)
-install(TARGETS rollrig_cvodes rollrig_multibody LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" NAMELINK_SKIP)
+install(TARGETS rollrig_cvodes ${rollrig_loaded_libraries} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" NAMELINK_SKIP)
 
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(DIRECTORY include/rollrig DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")

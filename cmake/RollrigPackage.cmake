@@ -42,7 +42,8 @@ file(WRITE "${debian}/triggers" "activate-noawait ldconfig\n")
 set(soversion "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
 file(WRITE "${debian}/shlibs"
   "librollrig ${soversion} rollrig (= ${package_version})\nlibrollrig_cvodes ${soversion} rollrig (= ${package_version})\n\
-librollrig_multibody ${soversion} rollrig (= ${package_version})\n")
+librollrig_multibody ${soversion} rollrig (= ${package_version})\n\
+librollrig_least_squares ${soversion} rollrig (= ${package_version})\n")
 
 # What cpack reads at its start. It would find the dependencies by itself, but then also write scripts that call
 # ldconfig, which a package must leave to the trigger.

@@ -1,13 +1,11 @@
 #include "diagnosis/comparison/refit.h"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "diagnosis/comparison/bounded_step.h"
-#include "estimation/quiet_solver.h"
+#include "estimation/least_squares/least_squares.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -29,23 +27,23 @@ Derived find_known(const RefitStart& start) {
 }
 
 /// Whitened residuals, then the unknowns themselves, whose priors are standard normal.
-class WhitenedResiduals : public ceres::CostFunction {
+class WhitenedResiduals {
  public:
   WhitenedResiduals(const Model& model, const Discrepancy& discrepancy, const RefitStart& start)
       : model_(model),
         discrepancy_(discrepancy),
         amplitudes_(start.amplitudes),
         threads_(start.threads),
-        last_(find_known(start)) {
-    set_num_residuals(static_cast<int>(model.residual_count() + model.unknown_count()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(model.unknown_count()));
-  }
+        last_(find_known(start)) {}
 
-  bool Evaluate(double const* const* parameters, double* out, double** jacobians) const override {
+  std::size_t count() const { return model_.residual_count() + model_.unknown_count(); }
+
+  /// False where the model cannot be simulated.
+  bool evaluate(const double* at, double* out, double* derivatives) {
     const Eigen::Index unknowns = to_index(model_.unknown_count());
     const Eigen::Index rows = to_index(model_.residual_count());
-    const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(parameters[0], unknowns);
-    const bool derive = jacobians != nullptr && jacobians[0] != nullptr;
+    const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(at, unknowns);
+    const bool derive = derivatives != nullptr;
     Eigen::VectorXd residuals;
     RowMatrix jacobian;
     if (derive && last_.is_at(u)) {
@@ -61,7 +59,7 @@ class WhitenedResiduals : public ceres::CostFunction {
     if (derive) {
       last_ = {u, whitened, jacobian};
       discrepancy_.whiten(amplitudes_, jacobian);
-      Eigen::Map<RowMatrix> all(jacobians[0], rows + unknowns, unknowns);
+      Eigen::Map<RowMatrix> all(derivatives, rows + unknowns, unknowns);
       all.topRows(rows) = jacobian;
       all.bottomRows(unknowns).setIdentity();
     }
@@ -76,7 +74,7 @@ class WhitenedResiduals : public ceres::CostFunction {
   const Discrepancy& discrepancy_;
   const Amplitudes& amplitudes_;
   int threads_;
-  mutable Derived last_;
+  Derived last_;
 };
 
 /// Whether a fit stopped short of its best because of a range: near the end of one, a step of Gauss and Newton goes
@@ -210,19 +208,30 @@ class FitWithinRanges {
 };
 
 /// Minimizes, and derives the residuals where it stops. False where that is no solution; then the cost is infinite.
-bool solve(const ceres::Solver::Options& options, ceres::Problem& problem, const WhitenedResiduals& residuals,
-           const Model& model, const RefitStart& start, Fit& fit) {
+bool solve(WhitenedResiduals& residuals, const Model& model, const RefitStart& start, Fit& fit) {
   fit.cost = std::numeric_limits<double>::infinity();
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return false;
+  estimation::LeastSquaresProblem problem;
+  problem.residuals = residuals.count();
+  problem.evaluate = [&residuals](const double* unknowns, double* out, double* derivatives) {
+    return residuals.evaluate(unknowns, out, derivatives);
+  };
+  estimation::LeastSquaresOptions options;
+  options.factorization = estimation::LeastSquaresOptions::Factorization::kNormalCholesky;
+  options.most_iterations = start.most_iterations;
+  options.most_invalid_steps = 20;  // each twice, four, eight times ... shorter than the one before
+  options.function_tolerance = kFunctionTolerance;
+  options.parameter_tolerance = 1e-4;
+  std::vector<double> unknowns(fit.unknowns.begin(), fit.unknowns.end());
+  const estimation::LeastSquaresResult result = estimation::minimize_squares(problem, options, unknowns);
+  fit.unknowns = Eigen::Map<const Eigen::VectorXd>(unknowns.data(), fit.unknowns.size());
+  if (!result.is_usable) return false;
   if (residuals.last().is_at(fit.unknowns)) {
     fit.residuals = residuals.last().residuals;
     fit.jacobian = residuals.last().jacobian;
   } else if (!model.evaluate(fit.unknowns, start.threads, fit.residuals, &fit.jacobian)) {
     return false;
   }
-  fit.cost = summary.final_cost;
+  fit.cost = result.half_sum;
   return true;
 }
 
@@ -233,20 +242,9 @@ Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& 
   fit.hypothesis = model.hypothesis();
   fit.unknowns = start.unknowns;
   fit.cost = std::numeric_limits<double>::infinity();
-  ceres::Problem problem;
-  auto* residuals = new WhitenedResiduals(model, discrepancy, start);  // the problem's own
-  problem.AddResidualBlock(residuals, nullptr, fit.unknowns.data());
   keep_in_ranges(model, fit.unknowns);
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = start.most_iterations;
-  options.function_tolerance = kFunctionTolerance;
-  options.parameter_tolerance = 1e-4;
-  options.max_num_consecutive_invalid_steps = 20;  // each twice, four, eight times ... shorter than the one before
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
-  estimation::quiet_solver();  // a start that cannot be simulated is an answer, not a mistake
-  if (!solve(options, problem, *residuals, model, start, fit)) return fit;
+  WhitenedResiduals residuals(model, discrepancy, start);
+  if (!solve(residuals, model, start, fit)) return fit;
   if (is_held_up_by_range(model, discrepancy, start, fit)) FitWithinRanges(model, discrepancy, start, fit).solve();
   if (!model.simulate(fit.unknowns, start.threads, fit.simulated, nullptr)) {
     fit.cost = std::numeric_limits<double>::infinity();

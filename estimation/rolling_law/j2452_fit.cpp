@@ -1,6 +1,5 @@
 #include "estimation/rolling_law/j2452_fit.h"
 
-#include <ceres/ceres.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +11,7 @@
 #include <boost/math/constants/constants.hpp>
 #include <boost/math/tools/minima.hpp>
 
-#include "estimation/quiet_solver.h"
+#include "estimation/least_squares/least_squares.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -37,17 +36,6 @@ ScaledPoint scale_point(const J2452Fit& fit, const RollingPoint& point) {
   return {std::log(point.pressure_Pa / fit.pressure_0_Pa), std::log(point.load_N / fit.load_0_N),
           (point.speed_m_s - fit.speed_0_m_s) / fit.half_range_m_s, point.force_N / fit.force_0_N};
 }
-
-struct ScaledResidual {
-  ScaledPoint point;
-  template <class T>
-  bool operator()(const T* const unknowns, T* residual) const {
-    using std::exp;
-    const T level = exp(unknowns[0] * point.log_pressure + unknowns[1] * point.log_load);
-    residual[0] = level * (unknowns[2] + point.x * (unknowns[3] + point.x * unknowns[4])) - point.force;
-    return true;
-  }
-};
 
 void require_levels(const std::vector<RollingPoint>& points, double RollingPoint::*member, const char* key,
                     const char* what, std::size_t least) {
@@ -89,30 +77,6 @@ void choose_scaling(const std::vector<RollingPoint>& points, J2452Fit& fit) {
   fit.half_range_m_s = 0.5 * (high_m_s - low_m_s);
 }
 
-Vector5 minimize_scaled(const std::vector<ScaledPoint>& points) {
-  std::array<double, kJ2452Coefficients> unknowns{-0.4, 1.0, 1.0, 0.1, 0.0};  // of an ordinary tire
-  ceres::Problem problem;
-  for (const ScaledPoint& point : points) {
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<ScaledResidual, 1, kJ2452Coefficients>(new ScaledResidual{point}), nullptr,
-        unknowns.data());
-  }
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = 200;  // Assumed: a well-conditioned fit takes ten
-  solver.function_tolerance = 1e-14;
-  solver.gradient_tolerance = 1e-14;
-  solver.parameter_tolerance = 1e-12;
-  solver.logging_type = ceres::SILENT;
-  quiet_solver();
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  if (!summary.IsSolutionUsable() || summary.termination_type == ceres::NO_CONVERGENCE) {
-    throw RunFailure("the fit of the law of SAE J2452 does not converge: " + summary.message);
-  }
-  return Eigen::Map<const Vector5>(unknowns.data());
-}
-
 /// Row of the Jacobian of the scaled force.
 Vector5 calc_gradient(const Vector5& found, double log_pressure, double log_load, double mean_x, double mean_x2) {
   const double level = std::exp(found(0) * log_pressure + found(1) * log_load);
@@ -120,6 +84,38 @@ Vector5 calc_gradient(const Vector5& found, double log_pressure, double log_load
   Vector5 gradient;
   gradient << force * log_pressure, force * log_load, level, level * mean_x, level * mean_x2;
   return gradient;
+}
+
+double calc_residual(const Vector5& found, const ScaledPoint& point) {
+  const double level = std::exp(found(0) * point.log_pressure + found(1) * point.log_load);
+  return level * (found(2) + point.x * (found(3) + point.x * found(4))) - point.force;
+}
+
+Vector5 minimize_scaled(const std::vector<ScaledPoint>& points) {
+  LeastSquaresProblem problem;
+  problem.residuals = points.size();
+  problem.evaluate = [&points](const double* unknowns, double* residuals, double* jacobian) {
+    const Vector5 at = Eigen::Map<const Vector5>(unknowns);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const ScaledPoint& point = points[i];
+      residuals[i] = calc_residual(at, point);
+      if (jacobian == nullptr) continue;
+      Eigen::Map<Vector5>(jacobian + i * kJ2452Coefficients) =
+          calc_gradient(at, point.log_pressure, point.log_load, point.x, point.x * point.x);
+    }
+    return true;
+  };
+  LeastSquaresOptions options;
+  options.most_iterations = 200;  // Assumed: a well-conditioned fit takes ten
+  options.function_tolerance = 1e-14;
+  options.gradient_tolerance = 1e-14;
+  options.parameter_tolerance = 1e-12;
+  std::vector<double> unknowns{-0.4, 1.0, 1.0, 0.1, 0.0};  // of an ordinary tire
+  const LeastSquaresResult result = minimize_squares(problem, options, unknowns);
+  if (!result.has_converged) {
+    throw RunFailure("the fit of the law of SAE J2452 does not converge: " + result.message);
+  }
+  return Eigen::Map<const Vector5>(unknowns.data());
 }
 
 /// a, b or c as the product of two numbers: exp(u), the scaling's part, and m, linear in q.

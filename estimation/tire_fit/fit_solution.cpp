@@ -1,6 +1,5 @@
 #include "estimation/tire_fit/fit_solution.h"
 
-#include <ceres/ceres.h>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -8,72 +7,38 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/quiet_solver.h"
+#include "estimation/least_squares/least_squares.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {
-namespace {
-
-/// The residuals as Ceres takes them: one block of unknowns.
-class ResidualFunction : public ceres::CostFunction {
- public:
-  explicit ResidualFunction(const DrumResiduals& residuals) : residuals_(residuals) {
-    set_num_residuals(static_cast<int>(residuals.residual_count()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(residuals.unknown_count()));
-  }
-  bool Evaluate(double const* const* unknowns, double* out, double** jacobians) const override {
-    try {
-      residuals_.evaluate(unknowns[0], out, jacobians != nullptr ? jacobians[0] : nullptr);
-    } catch (const RunFailure&) {  // no tire: the step that tried it is taken back
-      return false;
-    }
-    return std::all_of(out, out + residuals_.residual_count(), [](double r) { return std::isfinite(r); });
-  }
-
- private:
-  const DrumResiduals& residuals_;
-};
-
-/// Tells the caller and the log of each iteration.
-class FollowIterations : public ceres::IterationCallback {
- public:
-  explicit FollowIterations(Progress progress) : progress_(std::move(progress)) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
-    spdlog::debug("fit: iteration {}, half chi2 {:.6g}, largest gradient {:.2g}", at.iteration, at.cost,
-                  at.gradient_max_norm);
-    if (progress_) progress_(std::nan(""), fmt::format("iteration {}", at.iteration));
-    return ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  Progress progress_;
-};
-
-}  // namespace
-
 std::vector<double> minimize(const DrumResiduals& residuals, const std::vector<double>& first,
                              const Progress& progress) {
   std::vector<double> found = residuals.start();
   std::copy(first.begin(), first.end(), found.begin());
-  ceres::Problem problem;
-  problem.AddResidualBlock(new ResidualFunction(residuals), nullptr, found.data());
-  for (std::size_t i = 0; i < residuals.parameters().size(); ++i) {
-    const FreeParameter& parameter = residuals.parameters()[i];
-    const int at = static_cast<int>(i);
-    if (std::isfinite(parameter.lower_SI)) problem.SetParameterLowerBound(found.data(), at, parameter.lower_SI);
-    if (std::isfinite(parameter.upper_SI)) problem.SetParameterUpperBound(found.data(), at, parameter.upper_SI);
+  LeastSquaresProblem problem;
+  problem.residuals = residuals.residual_count();
+  problem.evaluate = [&residuals](const double* unknowns, double* out, double* jacobian) {
+    try {
+      residuals.evaluate(unknowns, out, jacobian);
+    } catch (const RunFailure&) {  // no tire: the step that tried it is taken back
+      return false;
+    }
+    return std::all_of(out, out + residuals.residual_count(), [](double r) { return std::isfinite(r); });
+  };
+  for (const FreeParameter& parameter : residuals.parameters()) {
+    problem.lower.push_back(parameter.lower_SI);
+    problem.upper.push_back(parameter.upper_SI);
   }
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = 300;  // Assumed: enough for guesses that are far off
-  solver.function_tolerance = 1e-10;
-  solver.logging_type = ceres::SILENT;
-  quiet_solver();  // what it says of a step or of the data, an error below says
-  FollowIterations follow(progress);
-  solver.callbacks.push_back(&follow);
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  if (summary.termination_type != ceres::CONVERGENCE) throw RunFailure("the fit does not converge: " + summary.message);
+  problem.follow = [&progress](int iteration, double half_sum, double largest_gradient) {
+    spdlog::debug("fit: iteration {}, half chi2 {:.6g}, largest gradient {:.2g}", iteration, half_sum,
+                  largest_gradient);
+    if (progress) progress(std::nan(""), fmt::format("iteration {}", iteration));
+  };
+  LeastSquaresOptions options;
+  options.most_iterations = 300;  // Assumed: enough for guesses that are far off
+  options.function_tolerance = 1e-10;
+  const LeastSquaresResult result = minimize_squares(problem, options, found);
+  if (!result.has_converged) throw RunFailure("the fit does not converge: " + result.message);
   return found;
 }
 

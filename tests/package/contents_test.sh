@@ -60,7 +60,7 @@ dpkg-deb --extract "$python" "$work/python3-rollrig"
 dpkg-deb --extract "$library" "$work/rollrig-dev"
 triplet=$(dpkg-architecture -qDEB_HOST_MULTIARCH)
 for file in usr/bin/rollrig usr/bin/rollrig_serve "usr/lib/$triplet/librollrig.so.$version" "usr/lib/$triplet/librollrig_cvodes.so.$version" \
-  "usr/lib/$triplet/librollrig_multibody.so.$version" \
+  "usr/lib/$triplet/librollrig_multibody.so.$version" "usr/lib/$triplet/librollrig_least_squares.so.$version" \
   usr/share/rollrig/assets/tires/a50.toml usr/share/man/man1/rollrig.1.gz usr/share/doc/rollrig/copyright \
   usr/share/doc/rollrig/changelog.Debian.gz usr/share/doc/rollrig/changelog.gz usr/share/doc/rollrig/NOTICE.md \
   usr/share/doc/rollrig/docs/tutorial.md \
@@ -95,7 +95,7 @@ done
 
 module=$(cd "$work/python3-rollrig/usr/lib/python3/dist-packages/rollrig" && echo _rollrig.*.so)
 for binary in usr/bin/rollrig usr/bin/rollrig_serve "usr/lib/$triplet/librollrig.so.$version" "usr/lib/$triplet/librollrig_cvodes.so.$version" \
-  "usr/lib/$triplet/librollrig_multibody.so.$version" \
+  "usr/lib/$triplet/librollrig_multibody.so.$version" "usr/lib/$triplet/librollrig_least_squares.so.$version" \
   "../python3-rollrig/usr/lib/python3/dist-packages/rollrig/$module"; do
   sections=$(readelf --sections --wide "$work/rollrig/$binary")
   case $sections in
