@@ -157,10 +157,14 @@ std::uint64_t calc_item_seed(std::uint64_t campaign_seed, std::size_t item) {
   return std::strtoull(hash.substr(0, 8).c_str(), nullptr, 16) >> 1U;
 }
 
-/// Writes once a second how many items the file has, and removes that file at the end.
+/// Writes once a second how many items the file has, and removes that file at the end. Of a file that begins empty
+/// there is nothing to say in the first second.
 class ResultsFile::Progress {
  public:
-  explicit Progress(std::string path) : path_(std::move(path)) {}
+  Progress(std::string path, const Tally& at_start)
+      : path_(std::move(path)), next_(std::chrono::steady_clock::now() + kInterval) {
+    if (at_start.done > 0) say(at_start);
+  }
   ~Progress() {
     std::error_code ignored;
     fs::remove(path_, ignored);
@@ -171,22 +175,27 @@ class ResultsFile::Progress {
   void write(const Tally& tally) {
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return;
-    next_ = now + std::chrono::seconds(1);
+    next_ = now + kInterval;
+    say(tally);
+  }
+
+ private:
+  static constexpr std::chrono::seconds kInterval{1};
+
+  void say(const Tally& tally) const {
     try {
       write_file_atomically(path_, to_text(Json{{"done", tally.done}, {"failed", tally.failed}}) + "\n");
     } catch (const InputError&) {  // results are worth more than the word on how many there are
     }
   }
 
- private:
   std::string path_;
-  std::chrono::steady_clock::time_point next_{};
+  std::chrono::steady_clock::time_point next_;
 };
 
-ResultsFile::ResultsFile(const std::string& path, const CampaignFolder& folder)
-    : store_(path, folder.definition), progress_(std::make_unique<Progress>(progress_file_of(path))) {
+ResultsFile::ResultsFile(const std::string& path, const CampaignFolder& folder) : store_(path, folder.definition) {
   store_.list_items([this](std::size_t, bool has_failed) { tally_.add(has_failed); });
-  if (tally_.done > 0) progress_->write(tally_);  // else there is nothing to say yet
+  progress_ = std::make_unique<Progress>(progress_file_of(path), tally_);
 }
 
 ResultsFile::~ResultsFile() = default;

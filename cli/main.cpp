@@ -1,9 +1,12 @@
 /// rollrig: the command line.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "cli/command.h"
@@ -33,7 +36,7 @@ constexpr const char* kFooter =
     "that could be diagnosed (2 or 3).\n";
 
 /// A command's own examples, below its help.
-void add_examples(const CLI::App& app) {
+void add_examples(CLI::App& app) {
   static const std::map<std::string, std::string> kExamples{
       {"run",
        "  rollrig run iso_28580 --tire a50\n"
@@ -84,7 +87,10 @@ void add_examples(const CLI::App& app) {
        "  rollrig export warm --mat warm.mat\n"
        "  rollrig export fmu --tire a50 --out tire.fmu\n"
        "  rollrig export c3_315_80r22_5 --vecto tire.xml\n"}};
-  for (const auto& [name, examples] : kExamples) app.get_subcommand(name)->footer("\nExamples:\n" + examples);
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    const auto of_command = kExamples.find(command->get_name());
+    if (of_command != kExamples.end()) command->footer("\nExamples:\n" + of_command->second);
+  }
 }
 
 /// `rollrig help fit tire` is `rollrig fit tire --help`.
@@ -119,6 +125,47 @@ void add_moved_command(CLI::App& app, Action& action) {
   });
 }
 
+struct Command {
+  const char* name;
+  void (*add)(CLI::App& app, Action& action);
+};
+
+/// In the order of the help.
+constexpr Command kCommands[] = {{"run", add_run_command},
+                                 {"sweep", add_sweep_command},
+                                 {"serve", add_serve_command},
+                                 {"campaign", add_campaign_command},
+                                 {"regress", add_regress_command},
+                                 {"validate", add_validate_command},
+                                 {"list", add_list_command},
+                                 {"describe", add_describe_command},
+                                 {"fit", add_fit_command},
+                                 {"diagnose", add_diagnose_command},
+                                 {"plan", add_plan_command},
+                                 {"import", add_import_command},
+                                 {"new", add_new_command},
+                                 {"export", add_export_command},
+                                 {"help", add_help_command},
+                                 {"blind", add_moved_command},
+                                 {"convert", add_convert_command},
+                                 {"align", add_align_command},
+                                 {"compare", add_compare_command},
+                                 {"label", add_label_command},
+                                 {"completion", add_completion_command},
+                                 {"man", add_man_command}};
+
+/// Adds the command that the first argument names, which saves the time that the options of all others take. Else, and
+/// for commands that tell of all others, adds all.
+void add_commands(CLI::App& app, Action& action, const std::string& first_argument) {
+  static const std::set<std::string> kTellOfAll{"help", "completion", "man"};
+  const auto is_named = [&](const Command& command) { return first_argument == command.name; };
+  const bool needs_one =
+      std::any_of(std::begin(kCommands), std::end(kCommands), is_named) && kTellOfAll.count(first_argument) == 0;
+  for (const Command& command : kCommands) {
+    if (!needs_one || is_named(command)) command.add(app, action);
+  }
+}
+
 int make_and_run(int argc, char** argv) {
   CLI::App app{kDescription, "rollrig"};
   app.formatter(std::make_shared<HelpFormatter>());
@@ -129,28 +176,7 @@ int make_and_run(int argc, char** argv) {
       ->each([](const std::string& level) { spdlog::set_level(spdlog::level::from_str(level)); });
   app.set_version_flag("--version", std::string("rollrig ") + ROLLRIG_VERSION);
   Action action;
-  add_run_command(app, action);
-  add_sweep_command(app, action);
-  add_serve_command(app, action);
-  add_campaign_command(app, action);
-  add_regress_command(app, action);
-  add_validate_command(app, action);
-  add_list_command(app, action);
-  add_describe_command(app, action);
-  add_fit_command(app, action);
-  add_diagnose_command(app, action);
-  add_plan_command(app, action);
-  add_import_command(app, action);
-  add_new_command(app, action);
-  add_export_command(app, action);
-  add_help_command(app, action);
-  add_moved_command(app, action);
-  add_convert_command(app, action);
-  add_align_command(app, action);
-  add_compare_command(app, action);
-  add_label_command(app, action);
-  add_completion_command(app, action);
-  add_man_command(app, action);
+  add_commands(app, action, argc > 1 ? argv[1] : "");
   app.footer(kFooter);  // subcommands made after it would repeat it
   add_examples(app);
   return parse_and_act(app, action, argc, argv);

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <array>
+#include <mutex>
+#include <optional>
 
 #include "scenarios/run/run_spec.h"
 #include "scenarios/run/scenario.h"
@@ -58,15 +61,41 @@ PreparedRun prepare_run(const RunSpec& spec) {
 
 Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress) { return prepare_run(spec)(progress); }
 
-const std::vector<const Scenario*>& all_scenarios() {
-  static const std::vector<Scenario> scenarios{
-#define ROLLRIG_SCENARIO(name) name::make(),
+namespace {
+
+/// A scenario that is made when it is first asked for: a program that needs one starts some milliseconds sooner.
+class Registered {
+ public:
+  Registered(const char* name, Scenario (*make)()) : name_(name), make_(make) {}
+
+  const char* name() const { return name_; }
+  const Scenario& get() {
+    std::call_once(once_, [this] { scenario_ = make_(); });
+    return *scenario_;
+  }
+
+ private:
+  const char* name_;
+  Scenario (*make_)();
+  std::once_flag once_;
+  std::optional<Scenario> scenario_;
+};
+
+auto& registered_scenarios() {
+  static std::array registered{
+#define ROLLRIG_SCENARIO(name) Registered(#name, &name::make),
 #include "scenarios/scenarios.def"
 #undef ROLLRIG_SCENARIO
   };
+  return registered;
+}
+
+}  // namespace
+
+const std::vector<const Scenario*>& all_scenarios() {
   static const std::vector<const Scenario*> pointers = [] {
     std::vector<const Scenario*> all;
-    for (const Scenario& scenario : scenarios) all.push_back(&scenario);
+    for (Registered& registered : registered_scenarios()) all.push_back(&registered.get());
     return all;
   }();
   return pointers;
@@ -79,6 +108,9 @@ std::vector<std::string> scenario_names() {
 }
 
 const Scenario* find_scenario_if_any(const std::string& name) {
+  for (Registered& registered : registered_scenarios()) {
+    if (name == registered.name()) return &registered.get();
+  }
   for (const Scenario* scenario : all_scenarios()) {
     if (name == scenario->text.name || (!name.empty() && name == scenario->text.former_name)) return scenario;
   }

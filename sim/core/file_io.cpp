@@ -114,17 +114,19 @@ std::string read_bytes(const std::string& path, std::uintmax_t largest_bytes) {
   const std::uintmax_t size = fs::file_size(path, code);  // those of /proc say 0, whatever is in them
   if (!code && size > largest_bytes) throw too_large(path, largest_bytes);
   std::string bytes;
-  constexpr std::size_t kPiece = 1 << 16;
-  if (!code) bytes.reserve(size + kPiece);
+  // A byte more than the file should have, so that its end is seen at the first reading.
+  constexpr std::size_t kLargestPiece = 1 << 16;
+  const std::size_t piece = code || size == 0 ? kLargestPiece : std::min<std::size_t>(size + 1, kLargestPiece);
+  if (!code) bytes.reserve(size + piece);
   while (in) {
     const std::size_t before = bytes.size();
-    bytes.resize(before + kPiece);
-    in.read(bytes.data() + before, static_cast<std::streamsize>(kPiece));
+    bytes.resize(before + piece);
+    in.read(bytes.data() + before, static_cast<std::streamsize>(piece));
     bytes.resize(before + static_cast<std::size_t>(in.gcount()));
     if (bytes.size() > largest_bytes) throw too_large(path, largest_bytes);
   }
   if (in.bad()) throw read_problem(path, errno);
-  if (bytes.size() < kPiece) bytes.shrink_to_fit();
+  if (bytes.size() < kLargestPiece) bytes.shrink_to_fit();
   if (bytes.empty()) throw file_problem(fmt::format("'{}' is empty", path), path);
   return bytes;
 }
