@@ -20,8 +20,9 @@ class CampaignItems : public WatchedItems {
   /// without carrying out all of them.
   virtual Check check() const = 0;
   /// The same of one item alone: for each process that begins, after check() has passed. Throws InputError where the
-  /// items cannot be carried out here, such as with other assets.
-  virtual void check_briefly() const = 0;
+  /// items cannot be carried out here. `has_same_assets`: all files of the campaign are in the present folder of assets,
+  /// so that no item can miss one.
+  virtual void check_briefly(bool has_same_assets) const = 0;
 
   /// Names of the columns that identify an item, and their values for one item.
   virtual std::vector<std::string> list_keys() const = 0;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "sim/core/assets.h"
 #include "sim/core/columns.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
@@ -25,7 +27,12 @@ std::unique_ptr<CampaignItems> OpenCampaign::make_watched_items() const {
   require_same_version(definition, path_of_definition());
   std::unique_ptr<CampaignItems> watched = make_items(definition);
   watched->watch_files(definition.files);
-  watched->check_briefly();
+  const fs::path assets = find_assets_folder();
+  const auto is_asset = [&assets](const CampaignFile& file) {
+    const fs::path inside = fs::path(file.path).lexically_relative(assets);
+    return !inside.empty() && *inside.begin() != "..";
+  };
+  watched->check_briefly(std::all_of(definition.files.begin(), definition.files.end(), is_asset));
   return watched;
 }
 

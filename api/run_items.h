@@ -37,7 +37,7 @@ class RunItems : public CampaignItems {
   /// with each word or path that a factor takes; of draws the item at the median of each factor. Carries out one item,
   /// in the quicker fidelity.
   Check check() const override;
-  void check_briefly() const override;
+  void check_briefly(bool has_same_assets) const override;
   void learn_names(const Json& result) override { flattener_.learn_names(result); }
   Json flatten(const Json& result) const override { return flattener_.flatten(result); }
 

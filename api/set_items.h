@@ -26,7 +26,7 @@ class SetItems : public CampaignItems {
   /// Reads all sets, and the tires of the assets. A set that cannot be read is warned of.
   Check check() const override;
   /// Nothing: a set that cannot be read is a failure of its item.
-  void check_briefly() const override {}
+  void check_briefly(bool /*has_same_assets*/) const override {}
   /// Nothing: carry_out() asks for the files that it has read. There may be thousands of others.
   void require_unchanged() const override {}
   /// Machine, tire, verdict, cause, its probability, and the gap in noise floors without and with it.
