@@ -45,7 +45,11 @@ class Sampler {
     state_.resize(system.state_count());
     for (const Channel& channel : out_.channels) instant_count_ += channel.is_mean() ? 0 : 1;
     instant_.resize(instant_count_);
-    for (std::vector<S>& column : out_.values) column.reserve(program.sample_times_s.size());
+    const std::size_t rows = estimate_rows();
+    out_.time_s.reserve(rows);
+    out_.phase.reserve(rows);
+    for (std::vector<S>& column : out_.values) column.reserve(rows);
+    for (auto& column : out_.pose_values) column.reserve(rows);
   }
 
   void begin_phase(const Phase& phase, std::size_t index, double phase_end_s) {
@@ -85,6 +89,16 @@ class Sampler {
  private:
   static constexpr double kMostSlack_s = 1e-9;
   static constexpr double kNever_s = 1e300;
+
+  /// Without those of phases that may end before their time.
+  std::size_t estimate_rows() const {
+    if (!program_.sample_times_s.empty()) return program_.sample_times_s.size();
+    double rows = 1.0;
+    for (const Phase& phase : program_.phases) {
+      if (!phase.until.has_value()) rows += std::ceil(phase.duration_s() / (interval_s_ * phase.row_stride));
+    }
+    return static_cast<std::size_t>(rows);
+  }
 
   double time_of(long k) const {
     const std::vector<double>& times_s = program_.sample_times_s;
