@@ -96,8 +96,8 @@ std::string make_fmu_of_options(const FmuInput& input) {
     return make_fmu(input);
   } catch (const InputError& error) {
     const InputProblem& problem = error.problem();
-    if (problem.key != "fmi_version") throw;
-    throw usage_error(problem.what, "--fmi", problem.value, problem.allowed);
+    if (problem.key != "fmi_version" && problem.key != "effects") throw;
+    throw usage_error(problem.what, problem.key == "effects" ? "--effects" : "--fmi", problem.value, problem.allowed);
   }
 }
 

@@ -94,8 +94,8 @@ void require_consistent(const WheelModel& model) {
     throw InputError({what, "", 0, key, fmt::format("{:g}", value), allowed, ""});
   };
   if (tire.geometry.rim_diameter_m >= tire.geometry.outer_diameter_m) {
-    refuse("the rim is larger than the tire", "geometry.rim_diameter_m", tire.geometry.rim_diameter_m,
-           fmt::format("less than {:g} m, the outer diameter", tire.geometry.outer_diameter_m));
+    refuse("the tire is smaller than its rim", "geometry.outer_diameter_m", tire.geometry.outer_diameter_m,
+           fmt::format("more than {:g} m, the diameter of the rim", tire.geometry.rim_diameter_m));
   }
   for (std::size_t i = 1; i < tire.load_map.size(); ++i) {
     if (tire.load_map[i].load_N > tire.load_map[i - 1].load_N) continue;
@@ -164,8 +164,8 @@ void WarmWheel::reset() {
 
 void WarmWheel::list_parameters() {
   parameters_.clear();
-  WheelModel::visit(model_,
-                    [this](const std::string&, const Field&, double& member) { parameters_.push_back(&member); });
+  WheelModel::visit_used(model_,
+                         [this](const std::string&, const Field&, double& member) { parameters_.push_back(&member); });
 }
 
 void WarmWheel::add_variable(Variable variable) {
@@ -196,7 +196,7 @@ void WarmWheel::list_variables() {
     const Variable of = state(i);
     add_variable({"der(" + of.name + ")", Role::kRate, "Rate of " + of.name, {}, of.unit});
   }
-  WheelModel::visit(model_, [this](const std::string& name, const Field& field, double value_SI) {
+  WheelModel::visit_used(model_, [this](const std::string& name, const Field& field, double value_SI) {
     const Unit unit = unit_of_key(field.key);
     add_variable({name, Role::kParameter, field.doc, field.range, unit, unit.from_si(value_SI)});
   });

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "sim/core/error.h"
@@ -9,7 +10,7 @@
 namespace rollrig::fmu {
 namespace {
 
-constexpr std::string_view kHeader = "rollrig-warm-wheel/1";
+constexpr std::string_view kHeader = "rollrig-warm-wheel/2";
 
 /// The lines of a text, one after the other.
 class LineReader {
@@ -49,7 +50,37 @@ const Known& find_known(const std::vector<const Known*>& all, std::string_view i
   throw RunFailure(fmt::format("the model of the wheel names '{}', which is not known", id));
 }
 
+/// Whether the law of a tire uses a number of [rolling_resistance].
+bool law_uses(const models::TireParameters<double>& tire, std::string_view key) {
+  const models::TireModelInfo& info = tire.model().info;
+  if (!info.uses("rolling_resistance")) return false;
+  if (key == "reference_drum_diameter_m") return info.loss_follows_curvature;
+  if (key == "reference_pressure_kPa" || key == "pressure_exponent") return true;
+  if (!info.has_speed_lines) return key == "reference_load_N";
+  return key == "lowest_speed_km_h" || tire.load_map.empty();  // a map has loads and lines of its own
+}
+
 }  // namespace
+
+bool WheelModel::uses(std::string_view name) const {
+  const std::string table(name.substr(0, name.rfind('.')));
+  const std::string_view key = name.substr(name.rfind('.') + 1);
+  const auto has_effect = [this](std::string_view id) {
+    return std::any_of(effects.begin(), effects.end(),
+                       [id](const models::ActiveEffect& on) { return on.effect->info.id == id; });
+  };
+  // The rest of [geometry] and [stiffness] is for rigs of bodies, and for what a tire file leaves out.
+  if (table == "geometry") return key == "outer_diameter_m" || key == "spin_inertia_kg_m2";
+  if (table == "stiffness") return key == "vertical_N_per_m";
+  if (table == "rolling_resistance") return law_uses(context.tire, key);
+  if (name == "rig.machine_radius_m") return false;              // for a torque, which the wheel does not give
+  if (name == "effects.cavity_volume.settling_s") return false;  // of a pressure sensor, as is the next of another
+  if (name == "effects.surface_warming.skin_share") return false;
+  if (name == "rig.moving_mass_kg") return has_effect("inertia_error");
+  if (name == "rig.skim_load_N") return has_effect("tire_loss_in_skim");
+  const bool is_of_wheel = table == "parasitic" || table == "rig" || table == "start" || table == "steps";
+  return is_of_wheel || table.rfind("effects.", 0) == 0 || context.tire.model().info.uses(table);
+}
 
 std::uint64_t calc_checksum(const char* bytes, std::size_t size) {
   std::uint64_t sum = 14695981039346656037u;

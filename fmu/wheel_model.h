@@ -21,20 +21,26 @@ struct WheelModel {
   double ambient_K = 0.0;                               // start value of both temperature inputs
   double longest_step_s = 1.0;  // of the integrator. Assumed: as of a vehicle's drive whose speed changes
 
-  /// Calls visit(name, field, member) for every number that enters an equation, in SI units. Tables and keys are those
-  /// of files: "thermal.heat_capacity_J_per_K", "effects.bearing_warmup.fall_per_K". Tables that the tire's model does
-  /// not use are left out.
+  /// Whether the number of that name changes anything of the wheel: the law of the tire or an effect uses it.
+  bool uses(std::string_view name) const;
+
+  /// Calls visit(name, field, member) for each number that the wheel uses.
+  template <class Self, class Visit>
+  static void visit_used(Self& m, Visit&& visit_one) {
+    visit(m, [&](const std::string& name, const Field& field, auto& member) {
+      if (m.uses(name)) visit_one(name, field, member);
+    });
+  }
+
+  /// Calls visit(name, field, member) for every number, in SI units. Tables and keys are those of files:
+  /// "thermal.heat_capacity_J_per_K", "effects.bearing_warmup.fall_per_K".
   template <class Self, class Visit>
   static void visit(Self& m, Visit&& visit) {
-    const auto& info = m.context.tire.model().info;
     const auto in_table = [&visit](const std::string& table) {
       return [&visit, table](const Field& field, auto& member) { visit(table + "." + field.key, field, member); };
     };
-    models::TireParameters<double>::visit_all(m.context.tire,
-                                              [&](const std::string& table, const Field& field, auto& member) {
-                                                if (table == "geometry" || table == "stiffness" || info.uses(table))
-                                                  in_table(table)(field, member);
-                                              });
+    models::TireParameters<double>::visit_all(m.context.tire, [&](const std::string& table, const Field& field,
+                                                                  auto& member) { in_table(table)(field, member); });
     models::ParasiticParameters<double>::visit(m.context.parasitic, in_table("parasitic"));
     const auto of_rig = in_table("rig");
     of_rig(Field{"surface_curvature_per_m", between(0.0, 100.0), "1/R of drum or roller; 0 of a plane"},

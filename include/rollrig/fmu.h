@@ -10,7 +10,7 @@ namespace rollrig {
 struct FmuInput {
   std::string tire;                  // name of an asset, or a path
   std::string rig = "road";          // what the tire rolls on: name of an asset, or a path
-  std::vector<std::string> effects;  // ids of effects that are on; their sizes are parameters of the FMU
+  std::vector<std::string> effects;  // ids of effects that are on; their numbers are parameters of the FMU
   int fmi_version = 2;               // 2 or 3
 };
 
@@ -20,7 +20,8 @@ struct FmuInput {
 /// Example   write_folder("exported", {{"tire.fmu", make_fmu({"a50"})}});
 /// Equation  docs/physics.md, DrivenWheel
 /// Validity  docs/fmu.md#validity
-/// Errors    InputError: no such tire, rig or effect; the tire lacks what the rig needs; an unknown version
+/// Errors    InputError: no such tire, rig or effect; an effect that changes nothing of this tire on this rig; the tire
+///           lacks what the rig needs; an unknown version
 std::string make_fmu(const FmuInput& input);
 
 }  // namespace rollrig

@@ -127,6 +127,9 @@ TEST_CASE("what no FMU can be made of is refused", "[fast]") {
   refuse("--tire a50 --fmi 1", "2 or 3");
   refuse("--tire a50 --fmi 1", "--fmi");
   refuse("--tire a50 --effects slip", "slip_loss");
+  refuse("--tire a50 --effects slip_loss,bearing_warmup",
+         "--effects value bearing_warmup");                                     // the road has no bearings
+  refuse("--tire a50 --rig drum_2m --effects torque_gain", "changes nothing");  // of a sensor
   CHECK(run_program("export", folder.path()).status == 2);
   try {
     rollrig::make_fmu({"a50", "road", {}, 1});

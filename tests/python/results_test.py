@@ -139,9 +139,9 @@ class FurtherResults(InFolder):
         self.assertEqual(rollrig.export_hdf5(self.folder / "a"), (self.folder / "a.h5").read_bytes())
         run_program("export", "c3_315_80r22_5", "--vecto", "tire.xml", folder=self.folder)
         self.assertEqual(rollrig.vecto_tire("c3_315_80r22_5"), (self.folder / "tire.xml").read_text())
-        run_program("export", "fmu", "--tire", "a50", "--effects", "bearing_warmup", "--fmi", 3, "--out", "tire.fmu",
+        run_program("export", "fmu", "--tire", "a50", "--effects", "slip_loss", "--fmi", 3, "--out", "tire.fmu",
                     folder=self.folder)
-        self.assertEqual(rollrig.make_fmu("a50", effects=["bearing_warmup"], fmi_version=3),
+        self.assertEqual(rollrig.make_fmu("a50", effects=["slip_loss"], fmi_version=3),
                          (self.folder / "tire.fmu").read_bytes())
 
     def test_new_files(self):
