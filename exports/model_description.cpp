@@ -6,6 +6,7 @@
 #include <map>
 
 #include "exports/xml.h"
+#include "fmu/log_categories.h"
 
 namespace rollrig::exports {
 namespace {
@@ -176,7 +177,11 @@ std::string make_model_description(const FmuDescription& about, const std::vecto
   if (!is_fmi3) root.set("numberOfEventIndicators", 0);
   add_kinds(root, is_fmi3);
   add_units(root, variables);
-  root.add("LogCategories").add("Category").set("name", "logStatusError").set("description", "Calls that failed");
+  const Element categories = root.add("LogCategories");
+  for (std::size_t i = 0; i < fmu::count_log_categories(about.fmi_version); ++i) {
+    const fmu::LogCategoryInfo& info = fmu::kLogCategories[i];
+    categories.add("Category").set("name", info.name).set("description", info.doc);
+  }
   root.add("DefaultExperiment").set("startTime", "0").set("stopTime", "1800").set("stepSize", "1");
   add_variables(root, variables, is_fmi3);
   is_fmi3 ? add_structure_fmi3(root, variables) : add_structure_fmi2(root, variables);

@@ -12,32 +12,28 @@
 namespace rollrig::fmu {
 namespace {
 
-struct Fmi2Instance : Instance {
-  using Instance::Instance;
-  fmi2CallbackFunctions callbacks{};
-  std::string name;
-};
-
 /// Tells the importer. Its logger takes a format of printf, in which "#" stands before a variable as well; some take it
 /// for the text itself, so that it has no arguments.
-void log_fmi2(const fmi2CallbackFunctions* callbacks, const char* name, const std::string& message) {
+void log_fmi2(const fmi2CallbackFunctions* callbacks, const char* name, LogCategory category,
+              const std::string& message) {
   if (callbacks == nullptr || callbacks->logger == nullptr) return;
   std::string format;
   for (const char c : message) format.append(c == '%' || c == '#' ? 2 : 1, c);
-  callbacks->logger(callbacks->componentEnvironment, name == nullptr ? "" : name, fmi2Error, "logStatusError",
-                    format.c_str());
+  callbacks->logger(callbacks->componentEnvironment, name == nullptr ? "" : name,
+                    category == LogCategory::kDiscard ? fmi2Discard : fmi2Error,
+                    kLogCategories[static_cast<std::size_t>(category)].name, format.c_str());
 }
 
 template <class Body>
 fmi2Status run_fmi2(fmi2Component component, const char* function, unsigned stages, Body&& body) noexcept {
   if (component == nullptr) return fmi2Error;
-  auto& instance = *static_cast<Fmi2Instance*>(component);
+  auto& instance = *static_cast<Instance*>(component);
   return instance.run(function, stages, [&] { body(instance); }) ? fmi2OK : fmi2Error;
 }
 
 /// The wheel has numbers alone: no variable of another type can be asked for.
-fmi2Status refuse_type(fmi2Component component, const char* function, std::size_t count) {
-  return run_fmi2(component, function, kAnyStage, [&](Instance&) {
+fmi2Status refuse_type(fmi2Component component, const char* function, unsigned stages, std::size_t count) {
+  return run_fmi2(component, function, stages, [&](Instance&) {
     if (count > 0) refuse("there is no variable of this type");
   });
 }
@@ -51,9 +47,11 @@ void require_first_order(const fmi2Integer* order, std::size_t count) {
 /// A step is done when the call returns, so that there is nothing to ask for but the time.
 template <class Value>
 fmi2Status tell_status(fmi2Component component, const char* function, Value* value, bool is_known, const Value& known) {
-  const fmi2Status status = run_fmi2(component, function, kAnyStage, [&](Instance&) {
+  const unsigned stages = kOnlyCoSimulation | kStepping | kTerminated;
+  const fmi2Status status = run_fmi2(component, function, stages, [&](Instance& instance) {
     require_given(value);
     if (is_known) *value = known;
+    if (!is_known) instance.report(LogCategory::kDiscard, function, "a step is done when fmi2DoStep returns");
   });
   return status == fmi2OK && !is_known ? fmi2Discard : status;
 }
@@ -67,33 +65,34 @@ const char* fmi2GetTypesPlatform() { return "default"; }
 const char* fmi2GetVersion() { return "2.0"; }
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String,
-                              const fmi2CallbackFunctions* callbacks, fmi2Boolean, fmi2Boolean) {
+                              const fmi2CallbackFunctions* callbacks, fmi2Boolean, fmi2Boolean logging_on) {
+  // Why there is no instance is told in any case: nobody could switch its messages on.
+  const auto fail = [&](const char* why) {
+    log_fmi2(callbacks, name, LogCategory::kError, std::string("fmi2Instantiate: ") + why);
+    return nullptr;
+  };
   try {
-    const auto fail = [&](const char* why) {
-      log_fmi2(callbacks, name, std::string("fmi2Instantiate: ") + why);
-      return nullptr;
-    };
     const BlockContent& content = read_own_block();
     if (name == nullptr || *name == '\0') return fail("the instance has no name");
     if (guid == nullptr || content.token != guid) return fail("the GUID is not that of this FMU");
     if (type != fmi2ModelExchange && type != fmi2CoSimulation) return fail("the type is unknown");
-    auto instance = std::make_unique<Fmi2Instance>(content.model, type == fmi2CoSimulation, Instance::Log());
-    instance->name = name;
-    if (callbacks != nullptr) instance->callbacks = *callbacks;
-    Fmi2Instance* self = instance.get();
-    self->log = [self](const std::string& message) { log_fmi2(&self->callbacks, self->name.c_str(), message); };
-    return instance.release();
+    const fmi2CallbackFunctions to = callbacks == nullptr ? fmi2CallbackFunctions{} : *callbacks;
+    const auto log = [to, of = std::string(name)](LogCategory category, const std::string& message) {
+      log_fmi2(&to, of.c_str(), category, message);
+    };
+    return new Instance(content.model, 2, type == fmi2CoSimulation, logging_on != fmi2False, log);
   } catch (const std::exception& error) {
-    log_fmi2(callbacks, name, std::string("fmi2Instantiate: ") + error.what());
+    return fail(error.what());
   } catch (...) {
+    return nullptr;
   }
-  return nullptr;
 }
 
-void fmi2FreeInstance(fmi2Component component) { delete static_cast<Fmi2Instance*>(component); }
+void fmi2FreeInstance(fmi2Component component) { delete static_cast<Instance*>(component); }
 
-fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean, size_t count, const fmi2String categories[]) {
-  return run_fmi2(component, "fmi2SetDebugLogging", kAnyStage, [&](Instance&) { require_given(categories, count); });
+fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean on, size_t count, const fmi2String categories[]) {
+  return run_fmi2(component, "fmi2SetDebugLogging", kAnyStage,
+                  [&](Instance& instance) { instance.set_logging(on != fmi2False, categories, count); });
 }
 
 fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean, fmi2Real, fmi2Real start_s, fmi2Boolean has_stop,
@@ -130,26 +129,26 @@ fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference referen
 fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference references[], size_t count,
                        const fmi2Real values[]) {
   return run_fmi2(component, "fmi2SetReal", kNotTerminated,
-                  [&](Instance& instance) { instance.set(references, count, values); });
+                  [&](Instance& instance) { instance.set(references, count, values, kContinuous); });
 }
 
 fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference[], size_t count, fmi2Integer[]) {
-  return refuse_type(component, "fmi2GetInteger", count);
+  return refuse_type(component, "fmi2GetInteger", kAnyStage, count);
 }
 fmi2Status fmi2GetBoolean(fmi2Component component, const fmi2ValueReference[], size_t count, fmi2Boolean[]) {
-  return refuse_type(component, "fmi2GetBoolean", count);
+  return refuse_type(component, "fmi2GetBoolean", kAnyStage, count);
 }
 fmi2Status fmi2GetString(fmi2Component component, const fmi2ValueReference[], size_t count, fmi2String[]) {
-  return refuse_type(component, "fmi2GetString", count);
+  return refuse_type(component, "fmi2GetString", kAnyStage, count);
 }
 fmi2Status fmi2SetInteger(fmi2Component component, const fmi2ValueReference[], size_t count, const fmi2Integer[]) {
-  return refuse_type(component, "fmi2SetInteger", count);
+  return refuse_type(component, "fmi2SetInteger", kNotTerminated & ~kContinuous, count);
 }
 fmi2Status fmi2SetBoolean(fmi2Component component, const fmi2ValueReference[], size_t count, const fmi2Boolean[]) {
-  return refuse_type(component, "fmi2SetBoolean", count);
+  return refuse_type(component, "fmi2SetBoolean", kNotTerminated & ~kContinuous, count);
 }
 fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference[], size_t count, const fmi2String[]) {
-  return refuse_type(component, "fmi2SetString", count);
+  return refuse_type(component, "fmi2SetString", kNotTerminated & ~kContinuous, count);
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state) {
@@ -182,7 +181,7 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference unknown[],
                                         size_t unknown_count, const fmi2ValueReference known[], size_t known_count,
                                         const fmi2Real known_direction[], fmi2Real unknown_direction[]) {
-  return run_fmi2(component, "fmi2GetDirectionalDerivative", kAfterStart, [&](Instance& instance) {
+  return run_fmi2(component, "fmi2GetDirectionalDerivative", kFromInitialization, [&](Instance& instance) {
     instance.differentiate(unknown, unknown_count, known, known_count, known_direction, unknown_direction);
   });
 }
@@ -219,43 +218,35 @@ fmi2Status fmi2SetTime(fmi2Component component, fmi2Real time_s) {
 }
 
 fmi2Status fmi2SetContinuousStates(fmi2Component component, const fmi2Real states[], size_t count) {
-  return run_fmi2(component, "fmi2SetContinuousStates", kContinuous, [&](Instance& instance) {
-    instance.require_states(states, count);
-    instance.wheel.set_states(states);
-  });
+  return run_fmi2(component, "fmi2SetContinuousStates", kContinuous,
+                  [&](Instance& instance) { instance.set_states(states, count); });
 }
 
 fmi2Status fmi2GetDerivatives(fmi2Component component, fmi2Real derivatives[], size_t count) {
-  return run_fmi2(component, "fmi2GetDerivatives", kEvents | kContinuous, [&](Instance& instance) {
-    instance.require_states(derivatives, count);
-    instance.wheel.get_rates(derivatives);
-  });
+  return run_fmi2(component, "fmi2GetDerivatives", kOnlyModelExchange | kFromInitialization,
+                  [&](Instance& instance) { instance.get_rates(derivatives, count); });
 }
 
 fmi2Status fmi2GetEventIndicators(fmi2Component component, fmi2Real[], size_t count) {
-  return run_fmi2(component, "fmi2GetEventIndicators", kEvents | kContinuous, [&](Instance&) {
+  return run_fmi2(component, "fmi2GetEventIndicators", kOnlyModelExchange | kFromInitialization, [&](Instance&) {
     if (count > 0) refuse("there are no event indicators");
   });
 }
 
 fmi2Status fmi2GetContinuousStates(fmi2Component component, fmi2Real states[], size_t count) {
-  return run_fmi2(component, "fmi2GetContinuousStates", kEvents | kContinuous, [&](Instance& instance) {
-    instance.require_states(states, count);
-    instance.wheel.get_states(states);
-  });
+  return run_fmi2(component, "fmi2GetContinuousStates", kOnlyModelExchange | kFromInitialization,
+                  [&](Instance& instance) { instance.get_states(states, count); });
 }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component component, fmi2Real nominals[], size_t count) {
-  return run_fmi2(component, "fmi2GetNominalsOfContinuousStates", kNotTerminated, [&](Instance& instance) {
-    instance.require_states(nominals, count);
-    instance.get_nominals(nominals);
-  });
+  return run_fmi2(component, "fmi2GetNominalsOfContinuousStates", kOnlyModelExchange | kAnyStage,
+                  [&](Instance& instance) { instance.get_nominals(nominals, count); });
 }
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueReference references[], size_t count,
                                        const fmi2Integer order[], const fmi2Real values[]) {
-  return run_fmi2(component, "fmi2SetRealInputDerivatives", kInstantiated | kInitialization | kStepping,
-                  [&](Instance& instance) {
+  return run_fmi2(component, "fmi2SetRealInputDerivatives",
+                  kOnlyCoSimulation | kInstantiated | kInitialization | kStepping, [&](Instance& instance) {
                     require_first_order(order, count);
                     instance.set_slopes(references, count, values);
                   });
@@ -263,9 +254,10 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueR
 
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2ValueReference[], size_t count,
                                         const fmi2Integer[], fmi2Real[]) {
-  return run_fmi2(component, "fmi2GetRealOutputDerivatives", kStepping, [&](Instance&) {
-    if (count > 0) refuse("derivatives of outputs are not known");
-  });
+  return run_fmi2(component, "fmi2GetRealOutputDerivatives", kOnlyCoSimulation | kStepping | kTerminated,
+                  [&](Instance&) {
+                    if (count > 0) refuse("derivatives of outputs are not known");
+                  });
 }
 
 fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time_s, fmi2Real step_s, fmi2Boolean) {
@@ -281,7 +273,7 @@ fmi2Status fmi2GetStatus(fmi2Component component, fmi2StatusKind, fmi2Status* va
   return tell_status(component, "fmi2GetStatus", value, false, fmi2OK);
 }
 fmi2Status fmi2GetRealStatus(fmi2Component component, fmi2StatusKind kind, fmi2Real* value) {
-  const double time_s = component == nullptr ? 0.0 : static_cast<Fmi2Instance*>(component)->wheel.time_s();
+  const double time_s = component == nullptr ? 0.0 : static_cast<Instance*>(component)->wheel.time_s();
   return tell_status(component, "fmi2GetRealStatus", value, kind == fmi2LastSuccessfulTime, time_s);
 }
 fmi2Status fmi2GetIntegerStatus(fmi2Component component, fmi2StatusKind, fmi2Integer* value) {

@@ -11,8 +11,13 @@
 namespace rollrig::fmu {
 namespace {
 
-void log_fmi3(fmi3InstanceEnvironment environment, fmi3LogMessageCallback log, const std::string& message) {
-  if (log != nullptr) log(environment, fmi3Error, "logStatusError", message.c_str());
+/// Tells the importer. "#" before a variable stands twice where it is none.
+void log_fmi3(fmi3InstanceEnvironment environment, fmi3LogMessageCallback log, LogCategory category,
+              const std::string& message) {
+  if (log == nullptr) return;
+  std::string escaped;
+  for (const char c : message) escaped.append(c == '#' ? 2 : 1, c);
+  log(environment, fmi3Error, kLogCategories[static_cast<std::size_t>(category)].name, escaped.c_str());
 }
 
 template <class Body>
@@ -23,8 +28,9 @@ fmi3Status run_fmi3(fmi3Instance given, const char* function, unsigned stages, B
 }
 
 /// What this FMU has none of: variables of other types, clocks, events of its own, configuration.
-fmi3Status refuse_unless_none(fmi3Instance given, const char* function, std::size_t count = 1) {
-  return run_fmi3(given, function, kAnyStage, [&](Instance&) {
+fmi3Status refuse_unless_none(fmi3Instance given, const char* function, std::size_t count = 1,
+                              unsigned stages = kAnyStage) {
+  return run_fmi3(given, function, stages, [&](Instance&) {
     if (count > 0) refuse("this FMU has nothing of this kind");
   });
 }
@@ -33,18 +39,21 @@ void require_same_count(std::size_t references, std::size_t values) {
   if (references != values) refuse("the number of values is not that of the variables");
 }
 
-fmi3Instance instantiate(const char* function, bool is_co_simulation, fmi3String name, fmi3String token,
-                         fmi3InstanceEnvironment environment, fmi3LogMessageCallback log) {
-  const auto tell = [environment, log, function](const std::string& message) {
-    log_fmi3(environment, log, message.rfind("fmi3", 0) == 0 ? message : std::string(function) + ": " + message);
+/// Why there is no instance is told in any case: nobody could switch its messages on.
+fmi3Instance instantiate(const char* function, bool is_co_simulation, bool event_mode_used, fmi3String name,
+                         fmi3String token, bool logging_on, fmi3InstanceEnvironment environment,
+                         fmi3LogMessageCallback log) {
+  const auto tell = [environment, log](LogCategory category, const std::string& message) {
+    log_fmi3(environment, log, category, message);
   };
   try {
     const BlockContent& content = read_own_block();
     if (name == nullptr || *name == '\0') refuse("the instance has no name");
     if (token == nullptr || content.token != token) refuse("the token is not that of this FMU");
-    return new Instance(content.model, is_co_simulation, tell);
+    if (event_mode_used) refuse("this FMU has no event mode in co-simulation");
+    return new Instance(content.model, 3, is_co_simulation, logging_on, tell);
   } catch (const std::exception& error) {
-    tell(error.what());
+    tell(LogCategory::kError, std::string(function) + ": " + error.what());
   } catch (...) {
   }
   return nullptr;
@@ -57,27 +66,30 @@ using namespace rollrig::fmu;  // NOLINT: C functions of the standard follow
 
 const char* fmi3GetVersion() { return "3.0"; }
 
-fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean, size_t count, const fmi3String categories[]) {
-  return run_fmi3(instance, "fmi3SetDebugLogging", kAnyStage, [&](Instance&) { require_given(categories, count); });
+fmi3Status fmi3SetDebugLogging(fmi3Instance given, fmi3Boolean on, size_t count, const fmi3String categories[]) {
+  return run_fmi3(given, "fmi3SetDebugLogging", kAnyStage,
+                  [&](Instance& instance) { instance.set_logging(on, categories, count); });
 }
 
-fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String, fmi3Boolean, fmi3Boolean,
-                                          fmi3InstanceEnvironment environment, fmi3LogMessageCallback log) {
-  return instantiate("fmi3InstantiateModelExchange", false, name, token, environment, log);
+fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String, fmi3Boolean,
+                                          fmi3Boolean logging_on, fmi3InstanceEnvironment environment,
+                                          fmi3LogMessageCallback log) {
+  return instantiate("fmi3InstantiateModelExchange", false, false, name, token, logging_on, environment, log);
 }
 
-fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String, fmi3Boolean, fmi3Boolean,
-                                         fmi3Boolean, fmi3Boolean, const fmi3ValueReference[], size_t,
-                                         fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
-                                         fmi3IntermediateUpdateCallback) {
-  return instantiate("fmi3InstantiateCoSimulation", true, name, token, environment, log);
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String, fmi3Boolean,
+                                         fmi3Boolean logging_on, fmi3Boolean event_mode_used, fmi3Boolean,
+                                         const fmi3ValueReference[], size_t, fmi3InstanceEnvironment environment,
+                                         fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback) {
+  return instantiate("fmi3InstantiateCoSimulation", true, event_mode_used, name, token, logging_on, environment, log);
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(fmi3String, fmi3String, fmi3String, fmi3Boolean, fmi3Boolean,
                                                fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
                                                fmi3ClockUpdateCallback, fmi3LockPreemptionCallback,
                                                fmi3UnlockPreemptionCallback) {
-  log_fmi3(environment, log, "fmi3InstantiateScheduledExecution: this FMU has no scheduled execution");
+  log_fmi3(environment, log, LogCategory::kError,
+           "fmi3InstantiateScheduledExecution: this FMU has no scheduled execution");
   return nullptr;
 }
 
@@ -97,8 +109,7 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance given) {
 }
 
 fmi3Status fmi3EnterEventMode(fmi3Instance given) {
-  return run_fmi3(given, "fmi3EnterEventMode", kEvents | kContinuous,
-                  [](Instance& instance) { instance.stage = kEvents; });
+  return run_fmi3(given, "fmi3EnterEventMode", kContinuous, [](Instance& instance) { instance.stage = kEvents; });
 }
 
 fmi3Status fmi3Terminate(fmi3Instance given) {
@@ -121,7 +132,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance given, const fmi3ValueReference reference
                           const fmi3Float64 values[], size_t value_count) {
   return run_fmi3(given, "fmi3SetFloat64", kNotTerminated, [&](Instance& instance) {
     require_same_count(count, value_count);
-    instance.set(references, count, values);
+    instance.set(references, count, values, kEvents | kContinuous);
   });
 }
 
@@ -130,7 +141,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance given, const fmi3ValueReference reference
     return refuse_unless_none(given, "fmi3Get" #name, count);                                                    \
   }                                                                                                              \
   fmi3Status fmi3Set##name(fmi3Instance given, const fmi3ValueReference[], size_t count, const type[], size_t) { \
-    return refuse_unless_none(given, "fmi3Set" #name, count);                                                    \
+    return refuse_unless_none(given, "fmi3Set" #name, count, kNotTerminated);                                    \
   }
 ROLLRIG_FOR_EACH_FMI3_TYPE(ROLLRIG_DEFINE_FMI3_TYPE)
 
@@ -139,7 +150,7 @@ fmi3Status fmi3GetBinary(fmi3Instance given, const fmi3ValueReference[], size_t 
 }
 fmi3Status fmi3SetBinary(fmi3Instance given, const fmi3ValueReference[], size_t count, const size_t[],
                          const fmi3Binary[], size_t) {
-  return refuse_unless_none(given, "fmi3SetBinary", count);
+  return refuse_unless_none(given, "fmi3SetBinary", count, kNotTerminated);
 }
 fmi3Status fmi3GetClock(fmi3Instance given, const fmi3ValueReference[], size_t count, fmi3Clock[]) {
   return refuse_unless_none(given, "fmi3GetClock", count);
@@ -184,7 +195,7 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance given, const fmi3Byte bytes[], s
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance given, const fmi3ValueReference unknown[], size_t unknown_count,
                                         const fmi3ValueReference known[], size_t known_count, const fmi3Float64 seed[],
                                         size_t seed_count, fmi3Float64 sensitivity[], size_t sensitivity_count) {
-  return run_fmi3(given, "fmi3GetDirectionalDerivative", kAfterStart, [&](Instance& instance) {
+  return run_fmi3(given, "fmi3GetDirectionalDerivative", kFromInitialization, [&](Instance& instance) {
     require_same_count(known_count, seed_count);
     require_same_count(unknown_count, sensitivity_count);
     instance.differentiate(unknown, unknown_count, known, known_count, seed, sensitivity);
@@ -231,7 +242,7 @@ fmi3Status fmi3SetShiftFraction(fmi3Instance given, const fmi3ValueReference[], 
 }
 
 fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance given) {
-  return run_fmi3(given, "fmi3EvaluateDiscreteStates", kInitialization | kEvents, [](Instance&) {});
+  return run_fmi3(given, "fmi3EvaluateDiscreteStates", kEvents, [](Instance&) {});
 }
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance given, fmi3Boolean* need_update, fmi3Boolean* terminate,
@@ -267,58 +278,50 @@ fmi3Status fmi3SetTime(fmi3Instance given, fmi3Float64 time_s) {
 }
 
 fmi3Status fmi3SetContinuousStates(fmi3Instance given, const fmi3Float64 states[], size_t count) {
-  return run_fmi3(given, "fmi3SetContinuousStates", kContinuous, [&](Instance& instance) {
-    instance.require_states(states, count);
-    instance.wheel.set_states(states);
-  });
+  return run_fmi3(given, "fmi3SetContinuousStates", kContinuous,
+                  [&](Instance& instance) { instance.set_states(states, count); });
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance given, fmi3Float64 derivatives[], size_t count) {
-  return run_fmi3(given, "fmi3GetContinuousStateDerivatives", kAfterStart, [&](Instance& instance) {
-    instance.require_states(derivatives, count);
-    instance.wheel.get_rates(derivatives);
-  });
+  return run_fmi3(given, "fmi3GetContinuousStateDerivatives", kOnlyModelExchange | kFromInitialization,
+                  [&](Instance& instance) { instance.get_rates(derivatives, count); });
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance given, fmi3Float64[], size_t count) {
-  return refuse_unless_none(given, "fmi3GetEventIndicators", count);
+  return refuse_unless_none(given, "fmi3GetEventIndicators", count, kOnlyModelExchange | kFromInitialization);
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance given, fmi3Float64 states[], size_t count) {
-  return run_fmi3(given, "fmi3GetContinuousStates", kAfterStart, [&](Instance& instance) {
-    instance.require_states(states, count);
-    instance.wheel.get_states(states);
-  });
+  return run_fmi3(given, "fmi3GetContinuousStates", kOnlyModelExchange | kFromInitialization,
+                  [&](Instance& instance) { instance.get_states(states, count); });
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance given, fmi3Float64 nominals[], size_t count) {
-  return run_fmi3(given, "fmi3GetNominalsOfContinuousStates", kNotTerminated, [&](Instance& instance) {
-    instance.require_states(nominals, count);
-    instance.get_nominals(nominals);
-  });
+  return run_fmi3(given, "fmi3GetNominalsOfContinuousStates", kOnlyModelExchange | kFromInitialization,
+                  [&](Instance& instance) { instance.get_nominals(nominals, count); });
 }
 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance given, size_t* count) {
-  return run_fmi3(given, "fmi3GetNumberOfEventIndicators", kAnyStage, [&](Instance&) {
+  return run_fmi3(given, "fmi3GetNumberOfEventIndicators", kOnlyModelExchange | kAnyStage, [&](Instance&) {
     require_given(count);
     *count = 0;
   });
 }
 
 fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance given, size_t* count) {
-  return run_fmi3(given, "fmi3GetNumberOfContinuousStates", kAnyStage, [&](Instance& instance) {
+  return run_fmi3(given, "fmi3GetNumberOfContinuousStates", kOnlyModelExchange | kAnyStage, [&](Instance& instance) {
     require_given(count);
     *count = instance.wheel.state_count();
   });
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance given) {
-  return run_fmi3(given, "fmi3EnterStepMode", kStepping, [](Instance&) {});
+  return refuse_unless_none(given, "fmi3EnterStepMode");  // from event mode, which co-simulation has none of
 }
 
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance given, const fmi3ValueReference[], size_t count, const int32_t[],
                                     fmi3Float64[], size_t) {
-  return refuse_unless_none(given, "fmi3GetOutputDerivatives", count);
+  return refuse_unless_none(given, "fmi3GetOutputDerivatives", count, kOnlyCoSimulation | kStepping | kTerminated);
 }
 
 fmi3Status fmi3DoStep(fmi3Instance given, fmi3Float64 time_s, fmi3Float64 step_s, fmi3Boolean,

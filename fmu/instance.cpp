@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "sim/core/error.h"
 
@@ -48,6 +49,11 @@ void set_all_or_none(const std::vector<std::size_t>& variables, const double* va
   }
 }
 
+void require_times(double start_s, double stop_s) {
+  if (std::isfinite(start_s) && stop_s >= start_s) return;
+  throw InputError({"start or stop time is wrong", "", 0, "", fmt::format("{:g} to {:g} s", start_s, stop_s), "", ""});
+}
+
 SavedState& to_saved_state(void* state) {
   require_given(state);
   return *static_cast<SavedState*>(state);
@@ -67,25 +73,45 @@ void require_given(const void* pointer, std::size_t count) {
   refuse("a pointer is null");
 }
 
-Instance::Instance(const WheelModel& model, bool is_for_co_simulation, Log to)
-    : wheel(model), is_co_simulation(is_for_co_simulation), log(std::move(to)) {}
+Instance::Instance(const WheelModel& model, int fmi_version, bool is_for_co_simulation, bool logging_on, Log to)
+    : wheel(model),
+      is_co_simulation(is_for_co_simulation),
+      log_(std::move(to)),
+      is_logged_(count_log_categories(fmi_version), logging_on) {}
 
 void Instance::require_stage(unsigned stages) const {
+  if ((stages & kOnlyModelExchange) != 0 && is_co_simulation) refuse("this call is one of model exchange");
+  if ((stages & kOnlyCoSimulation) != 0 && !is_co_simulation) refuse("this call is one of co-simulation");
   if ((stage & stages) != 0) return;
   throw InputError({fmt::format("this call is not allowed {}", name_stage(stage)), "", 0, "", "", "", ""});
 }
 
-void Instance::report(const char* function, const char* why) noexcept {
+void Instance::report(LogCategory category, const char* function, const char* why) noexcept {
   try {
-    log(fmt::format("{}: {}", function, why));
+    if (is_logged_[static_cast<std::size_t>(category)]) log_(category, fmt::format("{}: {}", function, why));
   } catch (...) {  // out of memory: the status alone says it
   }
 }
 
-void Instance::set_up(double start, double stop) {
-  if (!std::isfinite(start) || std::isnan(stop) || stop < start) {
-    throw InputError({"start or stop time is wrong", "", 0, "", fmt::format("{:g} to {:g} s", start, stop), "", ""});
+void Instance::set_logging(bool on, const char* const* categories, std::size_t count) {
+  std::vector<bool> switched = is_logged_;
+  if (count == 0) switched.assign(switched.size(), on);
+  require_given(categories, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    require_given(categories[i]);
+    std::size_t at = 0;
+    while (at < switched.size() && std::strcmp(kLogCategories[at].name, categories[i]) != 0) ++at;
+    if (at == switched.size()) {
+      throw InputError(
+          {"there is no such category of messages", "", 0, "", categories[i], "a name of LogCategories", ""});
+    }
+    switched[at] = on;
   }
+  is_logged_ = switched;
+}
+
+void Instance::set_up(double start, double stop) {
+  require_times(start, stop);
   start_s = start;
   stop_s = stop;
 }
@@ -104,27 +130,35 @@ void Instance::reset() {
   stop_s = std::numeric_limits<double>::infinity();
 }
 
-void Instance::get(const unsigned* references, std::size_t count, double* values) {
-  require_given(values, count);
-  const std::vector<std::size_t> variables = widen(references, count);
-  if (stage != kInitialization) {
-    for (std::size_t i = 0; i < count; ++i) values[i] = wheel.get(variables[i]);
-    return;
-  }
-  // Outputs and states as they would be at the start; parameters may still be set.
+template <class Body>
+void Instance::with_initialized_wheel(Body&& body) {
+  if (stage != kInitialization) return body();
   struct Undo {
     WarmWheel& wheel;
     ~Undo() { wheel.undo_initialize(); }
   } undo{wheel};
   wheel.initialize(start_s);
-  for (std::size_t i = 0; i < count; ++i) values[i] = wheel.get(variables[i]);
+  body();
 }
 
-void Instance::set(const unsigned* references, std::size_t count, const double* values) {
+void Instance::get(const unsigned* references, std::size_t count, double* values) {
   require_given(values, count);
+  const std::vector<std::size_t> variables = widen(references, count);
+  with_initialized_wheel([&] {
+    for (std::size_t i = 0; i < count; ++i) values[i] = wheel.get(variables[i]);
+  });
+}
+
+void Instance::set(const unsigned* references, std::size_t count, const double* values, unsigned stages_for_states) {
+  require_given(values, count);
+  const bool may_set_states = (stage & stages_for_states) != 0;
+  const auto is_state = [&](std::size_t variable) { return may_set_states && wheel.is_state(variable); };
   set_all_or_none(
-      widen(references, count), values, [this](std::size_t variable) { return wheel.get_if_settable(variable); },
-      [this](std::size_t variable, double value) { wheel.set(variable, value); });
+      widen(references, count), values,
+      [&](std::size_t variable) { return is_state(variable) ? wheel.get(variable) : wheel.get_if_settable(variable); },
+      [&](std::size_t variable, double value) {
+        is_state(variable) ? wheel.set_state(variable, value) : wheel.set(variable, value);
+      });
 }
 
 void Instance::set_slopes(const unsigned* references, std::size_t count, const double* slopes_per_s) {
@@ -152,12 +186,32 @@ void Instance::differentiate(const unsigned* unknown, std::size_t unknown_count,
                              std::size_t known_count, const double* direction, double* derivatives) {
   require_given(direction, known_count);
   require_given(derivatives, unknown_count);
-  const std::vector<double> found = wheel.differentiate(widen(unknown, unknown_count), widen(known, known_count),
-                                                        {direction, direction + known_count});
+  std::vector<double> found;
+  with_initialized_wheel([&] {
+    found = wheel.differentiate(widen(unknown, unknown_count), widen(known, known_count),
+                                {direction, direction + known_count},
+                                stage == kInitialization ? WarmWheel::Moment::kStart : WarmWheel::Moment::kPresent);
+  });
   std::copy(found.begin(), found.end(), derivatives);
 }
 
-void Instance::get_nominals(double* nominals) const {
+void Instance::get_states(double* states, std::size_t count) {
+  require_states(states, count);
+  with_initialized_wheel([&] { wheel.get_states(states); });
+}
+
+void Instance::get_rates(double* rates, std::size_t count) {
+  require_states(rates, count);
+  with_initialized_wheel([&] { wheel.get_rates(rates); });
+}
+
+void Instance::set_states(const double* states, std::size_t count) {
+  require_states(states, count);
+  wheel.set_states(states);
+}
+
+void Instance::get_nominals(double* nominals, std::size_t count) const {
+  require_states(nominals, count);
   for (std::size_t i = 0; i < wheel.state_count(); ++i) {
     nominals[i] = wheel.variables()[wheel.first_state() + i].nominal;
   }
@@ -165,7 +219,7 @@ void Instance::get_nominals(double* nominals) const {
 
 void Instance::get_state(void** state) const {
   require_given(state);
-  keep({wheel.take_snapshot(), static_cast<int>(stage)}, state);
+  keep({wheel.take_snapshot(), static_cast<int>(stage), start_s, stop_s}, state);
 }
 
 void Instance::set_state(void* state) {
@@ -173,11 +227,12 @@ void Instance::set_state(void* state) {
   const unsigned wanted = static_cast<unsigned>(saved.stage);
   const unsigned possible = kAnyStage & ~(is_co_simulation ? kEvents | kContinuous : kStepping);
   const bool is_one = wanted != 0 && (wanted & (wanted - 1)) == 0 && (wanted & possible) != 0;
-  const bool has_started = (wanted & kAfterStart) != 0;
-  if (!is_one || (has_started && saved.wheel.states.empty())) {
-    refuse("the state is one of another kind of instance");
-  }
+  const bool has_states = (wanted & (kAfterStart | kTerminated)) != 0;
+  if (!is_one || has_states == saved.wheel.states.empty()) refuse("the state is one of another kind of instance");
+  require_times(saved.start_s, saved.stop_s);
   wheel.restore(saved.wheel);
+  start_s = saved.start_s;
+  stop_s = saved.stop_s;
   stage = wanted;
 }
 

@@ -5,7 +5,9 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
+#include "fmu/log_categories.h"
 #include "fmu/saved_state.h"
 #include "fmu/warm_wheel.h"
 
@@ -23,11 +25,16 @@ enum Stage : unsigned {
 constexpr unsigned kAfterStart = kStepping | kEvents | kContinuous;
 constexpr unsigned kNotTerminated = kInstantiated | kInitialization | kAfterStart;
 constexpr unsigned kAnyStage = kNotTerminated | kTerminated;
+/// Stages in which there are outputs, states and rates.
+constexpr unsigned kFromInitialization = kInitialization | kAfterStart | kTerminated;
+/// Added to stages: the call is one of this kind of instance alone.
+constexpr unsigned kOnlyModelExchange = 64;
+constexpr unsigned kOnlyCoSimulation = 128;
 
 struct Instance {
-  using Log = std::function<void(const std::string& message)>;
+  using Log = std::function<void(LogCategory, const std::string& message)>;
 
-  Instance(const WheelModel& model, bool is_co_simulation, Log log);
+  Instance(const WheelModel& model, int fmi_version, bool is_co_simulation, bool logging_on, Log log);
 
   /// Runs `body` if the stage is one of `stages`. Says why in the log and returns false where it is not, or an
   /// exception comes.
@@ -38,43 +45,55 @@ struct Instance {
       body();
       return true;
     } catch (const std::exception& error) {
-      report(function, error.what());
+      report(LogCategory::kError, function, error.what());
     } catch (...) {
-      report(function, "unknown failure");
+      report(LogCategory::kError, function, "unknown failure");
     }
     return false;
   }
+  /// Puts a message into the log if its category is on.
+  void report(LogCategory category, const char* function, const char* why) noexcept;
+  /// Switches categories of messages, all of them where `count` is 0.
+  void set_logging(bool on, const char* const* categories, std::size_t count);
 
   void set_up(double start_s, double stop_s);
   void enter_initialization();
   void exit_initialization();
   void reset();
   void get(const unsigned* references, std::size_t count, double* values);
-  /// All of the values, or none.
-  void set(const unsigned* references, std::size_t count, const double* values);
+  /// All of the values, or none. States may be set in a stage of `stages_for_states`.
+  void set(const unsigned* references, std::size_t count, const double* values, unsigned stages_for_states);
   /// Slopes of inputs for the next step: all of them, or none.
   void set_slopes(const unsigned* references, std::size_t count, const double* slopes_per_s);
   void step(double time_s, double step_s);
   void differentiate(const unsigned* unknown, std::size_t unknown_count, const unsigned* known, std::size_t known_count,
                      const double* direction, double* derivatives);
-  void get_nominals(double* nominals) const;
+  void get_states(double* states, std::size_t count);
+  void get_rates(double* rates, std::size_t count);
+  void set_states(const double* states, std::size_t count);
+  void get_nominals(double* nominals, std::size_t count) const;
   /// Saves the present state into `*state`, a SavedState that the importer holds; makes one where it is null.
   void get_state(void** state) const;
   /// Goes on from a SavedState that the importer holds.
   void set_state(void* state);
-  /// Throws InputError where there is no room for exactly the states of the wheel.
-  void require_states(const void* numbers, std::size_t count) const;
 
   WarmWheel wheel;
   bool is_co_simulation;
-  Log log;
   unsigned stage = kInstantiated;
   double start_s = 0.0;
   double stop_s = std::numeric_limits<double>::infinity();
 
  private:
   void require_stage(unsigned stages) const;
-  void report(const char* function, const char* why) noexcept;
+  /// Throws InputError where there is no room for exactly the states of the wheel.
+  void require_states(const void* numbers, std::size_t count) const;
+  /// Runs `body` with the wheel initialized: in the initialization, as it would be at the start. Parameters may still
+  /// be set after that.
+  template <class Body>
+  void with_initialized_wheel(Body&& body);
+
+  Log log_;
+  std::vector<bool> is_logged_;  // by category
 };
 
 /// Throws InputError.

@@ -10,12 +10,14 @@ namespace rollrig::fmu {
 namespace {
 
 struct Head {
-  char mark[8] = {'R', 'R', 'W', 'H', 'E', 'E', 'L', '1'};
+  char mark[8] = {'R', 'R', 'W', 'H', 'E', 'E', 'L', '2'};
   std::uint64_t checksum = 0;  // of all behind it
   std::uint64_t wheel = 0;
   std::uint64_t stage = 0;
   std::uint64_t counts[4] = {};  // parameters, inputs, slopes, states
   double time_s = 0.0;
+  double start_s = 0.0;
+  double stop_s = 0.0;
 };
 
 constexpr std::size_t kChecked = offsetof(Head, wheel);  // from here on, the checksum covers the bytes
@@ -45,6 +47,8 @@ std::vector<char> serialize(const SavedState& state) {
   Head head;
   head.stage = static_cast<std::uint64_t>(state.stage);
   head.time_s = state.wheel.time_s;
+  head.start_s = state.start_s;
+  head.stop_s = state.stop_s;
   std::vector<char> bytes(count_bytes(state));
   char* end = bytes.data() + sizeof(Head);
   std::uint64_t* count = head.counts;
@@ -77,6 +81,8 @@ SavedState deserialize(const char* bytes, std::size_t size) {
   }
   SavedState state;
   state.stage = static_cast<int>(head.stage);
+  state.start_s = head.start_s;
+  state.stop_s = head.stop_s;
   state.wheel.time_s = head.time_s;
   state.wheel.wheel = head.wheel;
   const char* from = bytes + sizeof(Head);

@@ -2,16 +2,19 @@
 /// A state of a wheel as bytes, for an importer that keeps it.
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "fmu/warm_wheel.h"
 
 namespace rollrig::fmu {
 
-/// A snapshot, and the stage in which its instance was.
+/// A snapshot, and what its instance knew beside it.
 struct SavedState {
   Snapshot wheel;
   int stage = 0;
+  double start_s = 0.0;
+  double stop_s = std::numeric_limits<double>::infinity();
 };
 
 std::size_t count_bytes(const SavedState& state);

@@ -230,6 +230,16 @@ void WarmWheel::set(std::size_t index, double value) {
   *parameters_[given.index] = given.unit.to_si(value);
 }
 
+bool WarmWheel::is_state(std::size_t index) const { return variable(index).role == Role::kState; }
+
+void WarmWheel::set_state(std::size_t index, double value) {
+  require_initialized();
+  std::vector<double> states(state_count_);
+  get_states(states.data());
+  states[variable(index).index] = value;
+  set_states(states.data());
+}
+
 void WarmWheel::set_input_slope(std::size_t index, double slope_per_s) {
   const Variable& given = variable(index);
   require_finite(slope_per_s, given.name);
@@ -396,9 +406,10 @@ void WarmWheel::get_rates(double* rates) {
 
 std::vector<double> WarmWheel::differentiate(const std::vector<std::size_t>& unknown,
                                              const std::vector<std::size_t>& known,
-                                             const std::vector<double>& direction) {
+                                             const std::vector<double>& direction, Moment moment) {
   require_initialized();
-  if (jet_simulation_ == nullptr) {
+  const bool is_start = moment == Moment::kStart;
+  if (jet_simulation_ == nullptr || is_start) {
     auto made = std::make_unique<Simulation<Jet>>(model_);
     made->wheel.initialize(make_segment(0.0), time_s_, made->states.data());
     jet_simulation_ = std::move(made);
@@ -415,14 +426,17 @@ std::vector<double> WarmWheel::differentiate(const std::vector<std::size_t>& unk
     if (by.role == Role::kInput) {
       Jet& seeded = by.index == kAcceleration ? given.acceleration_m_s2 : given.seeds[by.index];
       seeded.v[0] += direction[i];
-    } else if (by.role == Role::kState) {
+    } else if (by.role == Role::kState && !is_start) {
       Jet& seeded = by.index + 1 == state_count_ ? lost : simulation.states[by.index];
       seeded.v[0] += direction[i] * by.unit.factor;
     } else {
-      throw bad_value(by, direction[i], "derivatives are by inputs and states alone");
+      throw bad_value(
+          by, direction[i],
+          is_start ? "derivatives at the start are by inputs alone" : "derivatives are by inputs and states alone");
     }
   }
   simulation.wheel.set_given(given);
+  if (is_start) simulation.wheel.initialize(make_segment(0.0), time_s_, simulation.states.data());
   simulation.wheel.begin_segment(make_segment(0.0), time_s_, simulation.states.data(), simulation.integrals.data());
   simulation.wheel.evaluate(time_s_, simulation.states.data(), simulation.rates.data(), simulation.integrals.data());
   const auto outputs = read_outputs(simulation.wheel);

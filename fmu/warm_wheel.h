@@ -64,6 +64,9 @@ class WarmWheel {
   std::size_t first_rate() const { return first_state_ + state_count_; }
 
   void set(std::size_t variable, double value);
+  bool is_state(std::size_t variable) const;
+  /// One of the states, as set_states().
+  void set_state(std::size_t variable, double value);
   /// An output, a state or a rate is that of the present inputs and states.
   double get(std::size_t variable);
   /// The value of an input or a parameter; 0 of all else.
@@ -95,11 +98,13 @@ class WarmWheel {
   /// Rates of all states, in the units of their variables.
   void get_rates(double* rates);
 
+  enum class Moment { kPresent, kStart };
   /// Directional derivative, exact (dual numbers), in the units of the variables.
   /// Equation  derivative[i] = sum over k of d unknown[i]/d known[k] direction[k]
-  /// Symbols   unknown: outputs, states and rates; known: inputs and states
+  /// Symbols   unknown: outputs, states and rates; known: inputs, and at the present states as well. At the start,
+  ///           states follow from the inputs
   std::vector<double> differentiate(const std::vector<std::size_t>& unknown, const std::vector<std::size_t>& known,
-                                    const std::vector<double>& direction);
+                                    const std::vector<double>& direction, Moment moment = Moment::kPresent);
 
   Snapshot take_snapshot() const;
   /// Throws InputError where the snapshot is not one of such a wheel.

@@ -170,6 +170,23 @@ TEST_CASE("an FMU goes on from a state that was kept, in memory or as bytes", "[
   other.step(100.0, 50.0);
   CHECK(other.get("liner_temperature_K") == expected_K);
 
+  // It knows the stop time as well.
+  Fmi2 short_run(fmu, fmi2CoSimulation, "until 30 s");
+  REQUIRE(FMI2(fmu, fmi2SetupExperiment)(short_run.component, 0, 0.0, 10.0, 1, 30.0) == fmi2OK);
+  REQUIRE(FMI2(fmu, fmi2GetFMUstate)(short_run.component, &state) == fmi2OK);
+  std::vector<char> experiment(size);
+  std::size_t experiment_size = 0;
+  REQUIRE(FMI2(fmu, fmi2SerializedFMUstateSize)(short_run.component, state, &experiment_size) == fmi2OK);
+  REQUIRE(experiment_size <= size);
+  REQUIRE(FMI2(fmu, fmi2SerializeFMUstate)(short_run.component, state, experiment.data(), experiment_size) == fmi2OK);
+  REQUIRE(FMI2(fmu, fmi2DeSerializeFMUstate)(other.component, experiment.data(), experiment_size, &state) == fmi2OK);
+  REQUIRE(FMI2(fmu, fmi2SetFMUstate)(other.component, state) == fmi2OK);
+  REQUIRE(FMI2(fmu, fmi2EnterInitializationMode)(other.component) == fmi2OK);
+  REQUIRE(FMI2(fmu, fmi2ExitInitializationMode)(other.component) == fmi2OK);
+  CHECK(other.get("time_s") == 10.0);
+  other.step(10.0, 20.0);
+  CHECK(FMI2(fmu, fmi2DoStep)(other.component, 30.0, 1.0, fmi2True) == fmi2Error);
+
   bytes[size / 2] = static_cast<char>(bytes[size / 2] + 1);
   CHECK(FMI2(fmu, fmi2DeSerializeFMUstate)(other.component, bytes.data(), size, &state) == fmi2Error);
   CHECK(FMI2(fmu, fmi2DeSerializeFMUstate)(other.component, bytes.data(), size - 8, &state) == fmi2Error);

@@ -47,13 +47,22 @@ Described read_variable(xmlNode* node) {
   return variable;
 }
 
-void log_message(fmi2ComponentEnvironment environment, fmi2String, fmi2Status, fmi2String, fmi2String format, ...) {
+void log_message(fmi2ComponentEnvironment environment, fmi2String, fmi2Status status, fmi2String category,
+                 fmi2String format, ...) {
   char text[2000];
   va_list arguments;
   va_start(arguments, format);
   std::vsnprintf(text, sizeof(text), format, arguments);
   va_end(arguments);
-  static_cast<std::vector<std::string>*>(environment)->emplace_back(text);
+  auto& tire = *static_cast<Fmi2*>(environment);
+  tire.messages.emplace_back(text);
+  tire.told.push_back({status, category});
+}
+
+void log_message_fmi3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message) {
+  auto& tire = *static_cast<Fmi3*>(environment);
+  tire.messages.emplace_back(message);
+  tire.told.push_back({status, category});
 }
 
 }  // namespace
@@ -85,6 +94,12 @@ std::vector<unsigned> Description::list(const std::string& causality) const {
     if (variable.causality == causality) references.push_back(variable.reference);
   }
   return references;
+}
+
+std::size_t Description::count_states() const {
+  std::size_t count = 0;
+  for (const auto& [name, variable] : variables) count += variable.derivative_of > 0 ? 1 : 0;
+  return count;
 }
 
 Description read_description(const std::string& xml) {
@@ -125,10 +140,10 @@ void* LoadedFmu::find_symbol(const char* name) const {
   return symbol;
 }
 
-Fmi2::Fmi2(const LoadedFmu& from, fmi2Type type, const std::string& name) : fmu(from) {
-  const fmi2CallbackFunctions callbacks{&log_message, nullptr, nullptr, nullptr, &messages};
+Fmi2::Fmi2(const LoadedFmu& from, fmi2Type type, const std::string& name, bool logging_on) : fmu(from) {
+  const fmi2CallbackFunctions callbacks{&log_message, nullptr, nullptr, nullptr, this};
   component = FMI2(fmu, fmi2Instantiate)(name.c_str(), type, fmu.description().token.c_str(), "file:///nowhere",
-                                         &callbacks, fmi2False, fmi2False);
+                                         &callbacks, fmi2False, logging_on ? fmi2True : fmi2False);
   REQUIRE(component != nullptr);
 }
 
@@ -162,6 +177,47 @@ void Fmi2::initialize(double start_s) {
 
 void Fmi2::step(double time_s, double step_s) {
   REQUIRE(FMI2(fmu, fmi2DoStep)(component, time_s, step_s, fmi2True) == fmi2OK);
+}
+
+Fmi3::Fmi3(const LoadedFmu& from, bool is_co_simulation, bool logging_on) : fmu(from) {
+  const char* token = fmu.description().token.c_str();
+  instance =
+      is_co_simulation
+          ? FMI3(fmu, fmi3InstantiateCoSimulation)("tire", token, nullptr, false, logging_on, false, false, nullptr, 0,
+                                                   this, &log_message_fmi3, nullptr)
+          : FMI3(fmu, fmi3InstantiateModelExchange)("tire", token, nullptr, false, logging_on, this, &log_message_fmi3);
+  REQUIRE(instance != nullptr);
+}
+
+Fmi3::~Fmi3() { FMI3(fmu, fmi3FreeInstance)(instance); }
+
+void Fmi3::set(const std::string& name, double value) {
+  const unsigned reference = fmu.description().find(name);
+  REQUIRE(FMI3(fmu, fmi3SetFloat64)(instance, &reference, 1, &value, 1) == fmi3OK);
+}
+
+double Fmi3::get(const std::string& name) {
+  const unsigned reference = fmu.description().find(name);
+  double value = 0.0;
+  REQUIRE(FMI3(fmu, fmi3GetFloat64)(instance, &reference, 1, &value, 1) == fmi3OK);
+  return value;
+}
+
+void Fmi3::initialize() {
+  REQUIRE(FMI3(fmu, fmi3EnterInitializationMode)(instance, false, 0.0, 0.0, false, 0.0) == fmi3OK);
+  REQUIRE(FMI3(fmu, fmi3ExitInitializationMode)(instance) == fmi3OK);
+}
+
+fmi3Status Fmi3::step(double time_s, double step_s) {
+  bool flags[3] = {true, true, true};
+  double last_s = -1.0;
+  const fmi3Status status =
+      FMI3(fmu, fmi3DoStep)(instance, time_s, step_s, true, &flags[0], &flags[1], &flags[2], &last_s);
+  if (status == fmi3OK) {
+    CHECK_FALSE((flags[0] || flags[1] || flags[2]));
+    CHECK(last_s == Approx(time_s + step_s));
+  }
+  return status;
 }
 
 }  // namespace rollrig::tests

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fmu/fmi2.h"
+#include "fmu/fmi3.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rollrig::tests {
@@ -31,6 +32,7 @@ struct Description {
 
   unsigned find(const std::string& name) const { return variables.at(name).reference; }
   std::vector<unsigned> list(const std::string& causality) const;
+  std::size_t count_states() const;
 };
 
 Description read_description(const std::string& xml);
@@ -61,19 +63,27 @@ class LoadedFmu {
   void* handle_ = nullptr;
 };
 
-/// By its name in fmi2.h.
+/// By its name in fmi2.h and fmi3.h.
 #define FMI2(fmu, function) (fmu).find<decltype(function)>(#function)
+#define FMI3(fmu, function) (fmu).find<decltype(function)>(#function)
+
+/// What an instance told by its logger.
+struct Told {
+  int status = 0;
+  std::string category;
+};
 
 /// An instance of version 2, with the messages that it gave.
 class Fmi2 {
  public:
-  Fmi2(const LoadedFmu& fmu, fmi2Type type, const std::string& name = "tire");
+  Fmi2(const LoadedFmu& fmu, fmi2Type type, const std::string& name = "tire", bool logging_on = true);
   ~Fmi2();
   Fmi2(const Fmi2&) = delete;
   Fmi2& operator=(const Fmi2&) = delete;
 
   const LoadedFmu& fmu;
   std::vector<std::string> messages;
+  std::vector<Told> told;  // with each of the messages
   fmi2Component component = nullptr;
 
   void set(const std::string& name, double value);
@@ -82,6 +92,25 @@ class Fmi2 {
   void set_slope(const std::string& name, double slope_per_s);
   void initialize(double start_s = 0.0);
   void step(double time_s, double step_s);
+};
+
+/// An instance of version 3, with the messages that it gave.
+class Fmi3 {
+ public:
+  Fmi3(const LoadedFmu& fmu, bool is_co_simulation, bool logging_on = true);
+  ~Fmi3();
+  Fmi3(const Fmi3&) = delete;
+  Fmi3& operator=(const Fmi3&) = delete;
+
+  const LoadedFmu& fmu;
+  std::vector<std::string> messages;
+  std::vector<Told> told;
+  fmi3Instance instance = nullptr;
+
+  void set(const std::string& name, double value);
+  double get(const std::string& name);
+  void initialize();
+  fmi3Status step(double time_s, double step_s);
 };
 
 }  // namespace rollrig::tests

@@ -21,12 +21,6 @@ void enter_continuous(Fmi2& tire) {
   REQUIRE(FMI2(tire.fmu, fmi2EnterContinuousTimeMode)(tire.component) == fmi2OK);
 }
 
-std::size_t count_states(const LoadedFmu& fmu) {
-  std::size_t count = 0;
-  for (const auto& [name, variable] : fmu.description().variables) count += variable.derivative_of > 0 ? 1 : 0;
-  return count;
-}
-
 Vector find_rates(Fmi2& tire, double time_s, const Vector& states) {
   Vector rates(states.size());
   REQUIRE(FMI2(tire.fmu, fmi2SetTime)(tire.component, time_s) == fmi2OK);
@@ -60,7 +54,7 @@ TEST_CASE("model exchange integrated by the importer is co-simulation", "[fast]"
   slave.initialize();
   Fmi2 model(fmu, fmi2ModelExchange);
   enter_continuous(model);
-  Vector states(count_states(fmu));
+  Vector states(fmu.description().count_states());
   REQUIRE(FMI2(fmu, fmi2GetContinuousStates)(model.component, states.data(), states.size()) == fmi2OK);
   for (int i = 0; i < 600; ++i) {
     const double speed_m_s = 20.0 + 10.0 * std::sin(0.05 * i);
@@ -123,7 +117,7 @@ TEST_CASE("derivatives by states are the slopes of the rates", "[fast]") {
   Fmi2 tire(fmu, fmi2ModelExchange);
   enter_continuous(tire);
   tire.set("speed_m_s", 25.0);
-  Vector states(count_states(fmu));
+  Vector states(fmu.description().count_states());
   REQUIRE(FMI2(fmu, fmi2GetContinuousStates)(tire.component, states.data(), states.size()) == fmi2OK);
   states[0] += 20.0;
   find_rates(tire, 0.0, states);
