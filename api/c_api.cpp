@@ -32,6 +32,15 @@ InputError c_error(const std::string& what, const std::string& key = "", const s
   return InputError({what, "", 0, key, value, allowed, ""});
 }
 
+/// Returns `status`, whose reason rollrig_last_error() tells.
+int fail(int status, const char* why) noexcept {
+  try {
+    last_error = why;
+  } catch (...) {  // out of memory: the status alone says it
+  }
+  return status;
+}
+
 /// Runs `body`, and keeps what it throws for rollrig_last_error().
 template <class Body>
 int run_c(Body&& body) noexcept {
@@ -40,20 +49,16 @@ int run_c(Body&& body) noexcept {
     body();
     return ROLLRIG_OK;
   } catch (const InputError& error) {
-    last_error = error.what();
-    return ROLLRIG_INPUT_ERROR;
+    return fail(ROLLRIG_INPUT_ERROR, error.what());
   } catch (const RunFailure& error) {
-    last_error = error.what();
-    return ROLLRIG_RUN_FAILED;
+    return fail(ROLLRIG_RUN_FAILED, error.what());
   } catch (const Interrupted& error) {
-    last_error = error.what();
-    return ROLLRIG_RUN_FAILED;
+    return fail(ROLLRIG_RUN_FAILED, error.what());
   } catch (const std::exception& error) {
-    last_error = error.what();
+    return fail(ROLLRIG_INTERNAL_ERROR, error.what());
   } catch (...) {
-    last_error = "unknown failure";
+    return fail(ROLLRIG_INTERNAL_ERROR, "unknown failure");
   }
-  return ROLLRIG_INTERNAL_ERROR;
 }
 
 template <class Object>
@@ -83,10 +88,17 @@ std::size_t to_index(int variable) {
 }
 
 std::vector<std::size_t> to_indices(const int* variables, int count) {
+  if (count < 0) throw c_error("the number of values is wrong", "count", fmt::format("{}", count), "0 or more");
   if (count > 0) require(variables);
   std::vector<std::size_t> indices;
   for (int i = 0; i < count; ++i) indices.push_back(to_index(variables[i]));
   return indices;
+}
+
+fmu::SavedState keep(const rollrig_wheel& wheel) {
+  fmu::SavedState state;
+  state.wheel = wheel.wheel.take_snapshot();
+  return state;
 }
 
 /// A name of an asset, a path, or the text of a file, which has more than one line.
@@ -219,21 +231,25 @@ int rollrig_wheel_differentiate(rollrig_wheel* wheel, const int* unknown, int un
   return run_c([&] {
     if (known_count > 0) require(direction);
     if (unknown_count > 0) require(derivatives);
-    const std::vector<double> along(direction, direction + std::max(known_count, 0));
+    const std::vector<std::size_t> by = to_indices(known, known_count);
     const std::vector<double> found =
-        require(wheel).wheel.differentiate(to_indices(unknown, unknown_count), to_indices(known, known_count), along);
+        require(wheel).wheel.differentiate(to_indices(unknown, unknown_count), by, {direction, direction + by.size()});
     std::copy(found.begin(), found.end(), derivatives);
   });
 }
 
 int rollrig_wheel_saved_size(const rollrig_wheel* wheel) {
   if (wheel == nullptr) return 0;
-  return static_cast<int>(fmu::count_bytes({wheel->wheel.take_snapshot(), 0}));
+  try {
+    return static_cast<int>(count_bytes(keep(*wheel)));
+  } catch (...) {  // out of memory
+    return 0;
+  }
 }
 
 int rollrig_wheel_save(const rollrig_wheel* wheel, char* bytes, int size) {
   return run_c([&] {
-    const std::vector<char> saved = fmu::serialize({require(wheel).wheel.take_snapshot(), 0});
+    const std::vector<char> saved = fmu::serialize(keep(require(wheel)));
     require_count(bytes, size, saved.size());
     std::copy(saved.begin(), saved.end(), bytes);
   });

@@ -6,7 +6,10 @@
    named set, get, start, step, reset, differentiate, save and load return a status. After either failed,
    rollrig_last_error() says why. Counts, sizes, numbers of variables, names and other texts need no status: of a null
    object or an unknown number or name they are 0, -1 or a null pointer, and set no error. Two threads may use two
-   objects at once, but not one object. */
+   objects at once, but not one object.
+
+   Free each object once, with the function named free of its kind; a null pointer is no mistake there. Names and other
+   texts of an object are valid until it is freed. */
 
 #define ROLLRIG_C_API_VERSION 1
 
@@ -21,11 +24,12 @@
 extern "C" {
 #endif
 
-/* ROLLRIG_C_API_VERSION of the library. It changes when a function changes or goes away. */
+/* ROLLRIG_C_API_VERSION of the library. It changes when a function changes or goes away: where it is not that of this
+   header, do not call the library. */
 int rollrig_c_api_version(void);
 
-/* Why this thread's last call that creates an object or returns a status failed; empty if it did not fail. Valid until
-   the next such call of the thread. */
+/* Why this thread's last call that creates an object or returns a status failed; empty if it did not fail, or if there
+   is no memory for the reason. Valid until the next such call of the thread. */
 const char* rollrig_last_error(void);
 
 /* A warm tire on its wheel, without effects, whose motion the caller gives. Its variables have numbers from 0, and
@@ -78,7 +82,7 @@ int rollrig_wheel_get_rates(rollrig_wheel* wheel, double* rates, int count);
 /* Directional derivative: derivatives[i] = sum over k of d unknown[i] / d known[k] * direction[k], exact (dual
    numbers), in the units of the variables. known: inputs and states; unknown: outputs, states and rates. direction has
    known_count numbers, derivatives unknown_count. Errors: ROLLRIG_INPUT_ERROR before rollrig_wheel_start(), for a
-   variable of another role, or for a direction that is not finite. */
+   variable of another role, a negative count, or a direction that is not finite. */
 int rollrig_wheel_differentiate(rollrig_wheel* wheel, const int* unknown, int unknown_count, const int* known,
                                 int known_count, const double* direction, double* derivatives);
 

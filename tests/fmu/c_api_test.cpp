@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "build_paths.h"
@@ -111,10 +112,40 @@ TEST_CASE("the C API says what is wrong", "[fast]") {
   CHECK_THAT(rollrig_last_error(), Catch::Contains("speed_m_s"));  // what needs no status sets no error
   CHECK(rollrig_wheel_get(nullptr, 0, nullptr) == ROLLRIG_INPUT_ERROR);
   CHECK(rollrig_wheel_load(tire.get(), "abc", 3) == ROLLRIG_INPUT_ERROR);
+  CHECK(rollrig_wheel_load(tire.get(), "abc", -3) == ROLLRIG_INPUT_ERROR);
+  REQUIRE(rollrig_wheel_start(tire.get(), 0.0) == ROLLRIG_OK);
+  int load = rollrig_wheel_find_variable(tire.get(), "load_N");
+  double one = 1.0;
+  CHECK(rollrig_wheel_differentiate(tire.get(), &load, -1, &load, 1, &one, &one) == ROLLRIG_INPUT_ERROR);
+  CHECK(rollrig_wheel_differentiate(tire.get(), &load, 1, &load, -1, &one, &one) == ROLLRIG_INPUT_ERROR);
+  CHECK_THAT(rollrig_last_error(), Catch::Contains("-1"));
+  CHECK(rollrig_wheel_get_states(tire.get(), &one, -1) == ROLLRIG_INPUT_ERROR);
+  rollrig_wheel_free(nullptr);
+  rollrig_run_free(nullptr);
   CHECK(rollrig_run_carry_out("{\"scenari\": \"warm_up\"}") == nullptr);
   CHECK_THAT(rollrig_last_error(), Catch::Contains("scenario"));
   CHECK(rollrig_run_carry_out("[") == nullptr);
   CHECK(rollrig_run_json(nullptr) == nullptr);
+}
+
+TEST_CASE("each thread has the last error of its own calls", "[fast]") {
+  const WheelPointer tire(rollrig_wheel_create("a50", "road"));
+  CHECK(rollrig_wheel_step(tire.get(), 1.0) == ROLLRIG_INPUT_ERROR);
+  const std::string mine = rollrig_last_error();
+  CHECK_FALSE(mine.empty());
+  std::string before = "unset";
+  std::string after;
+  std::thread other([&] {
+    before = rollrig_last_error();
+    const WheelPointer strange(rollrig_wheel_create("no_such_tire", "road"));
+    after = rollrig_last_error();
+  });
+  other.join();
+  CHECK(before.empty());
+  CHECK_THAT(after, Catch::Contains("no_such_tire"));
+  CHECK(rollrig_last_error() == mine);
+  CHECK(rollrig_wheel_start(tire.get(), 0.0) == ROLLRIG_OK);
+  CHECK(rollrig_last_error() == std::string());
 }
 
 TEST_CASE("a whole test by the C API is that of the program", "[fast]") {
