@@ -10,8 +10,9 @@ function(rollrig_add_loaded_library target)
   add_library(${target} SHARED ${ARGN})
   set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     VERSION "${PROJECT_VERSION}" SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
-  # It names all that it links itself, so that a wheel may bring that along (python/make_wheel.sh --bundle).
-  target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-as-needed)
+  # A wheel may bring along what it links (python/make_wheel.sh --bundle): it names all of it, and by RPATH instead of
+  # RUNPATH the loader finds there what those libraries need in turn.
+  target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-as-needed LINKER:--disable-new-dtags)
 endfunction()
 
 # The source that loads a library gets the library's file name as the macro ROLLRIG_<NAME>_LIBRARY.
