@@ -23,6 +23,7 @@
 #include "rolling_law.h"
 #include "run.h"
 #include "scaffold.h"
+#include "stop.h"
 #include "sweep.h"
 #include "uncertainty_options.h"
 #include "vecto.h"

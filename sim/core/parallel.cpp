@@ -8,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "sim/core/current_stop.h"
 #include "sim/core/interrupt.h"
 
 #ifdef ROLLRIG_THREAD_SANITIZER
@@ -62,8 +63,10 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   std::size_t done = 0;
   Order handed_out;
   Order finished;
-  const auto work_and_tell = [&](std::size_t i) {
+  const Stop* const stop = current_stop();
+  const auto work_and_tell = [&, stop](std::size_t i) {
     const Turn turn(handed_out, finished);
+    const AdoptedStop adopted(stop);
     throw_if_interrupted();
     {
       const AtWork at_work;
