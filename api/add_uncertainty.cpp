@@ -1,11 +1,13 @@
 #include "api/add_uncertainty.h"
 
+#include "api/option_range.h"
 #include "estimation/uncertainty/uncertainty.h"
 #include "report/blocks.h"
 
 namespace rollrig {
 
 void check_uncertainty(const UncertaintyOptions& options) {
+  require_threads(options.threads);
   estimation::check_trials(options.monte_carlo_trials, "--monte-carlo");
 }
 

@@ -1,6 +1,7 @@
 #include "rollrig/diagnose.h"
 
 #include "api/data.h"
+#include "api/option_range.h"
 #include "diagnosis/next_test/plan_files.h"
 #include "diagnosis/output/diagnosis_json.h"
 #include "diagnosis/output/explain.h"
@@ -11,8 +12,17 @@
 #include "report/diagnosis_page.h"
 
 namespace rollrig {
+namespace {
+
+void require_valid(const DiagnosisOptions& options) {
+  require_comparable_effects(options.only, options.without);
+  require_threads(options.threads);
+}
+
+}  // namespace
 
 Diagnosis diagnose(const MeasurementSet& set, const DiagnosisOptions& options) {
+  require_valid(options);
   const auto found = std::make_shared<const diagnosis::Diagnosis>(diagnosis::diagnose(set.data().set, options));
   Diagnosis result;
   static_cast<Findings&>(result) = *found;
@@ -29,6 +39,7 @@ FleetDiagnosis diagnose_fleet(const std::vector<std::string>& folders, const Dia
                               BadRows bad_rows) {
   if (folders.empty())
     throw InputError({"there is no set to diagnose", "", 0, "", "", "the folder of one set at least", ""});
+  require_valid(options);
   const auto fleet = std::make_shared<const diagnosis::Fleet>(diagnosis::diagnose_fleet(folders, options, bad_rows));
   FleetDiagnosis result;
   result.members = fleet->members;

@@ -7,6 +7,7 @@
 
 #include "api/add_uncertainty.h"
 #include "api/report_files.h"
+#include "api/road_load_options.h"
 #include "estimation/road_load/checked_road_load.h"
 #include "estimation/road_load/default_road_load.h"
 #include "estimation/road_load/procedure_uncertainty.h"
@@ -103,6 +104,7 @@ RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedure
 RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOptions& options,
                             const std::vector<std::string>& sessions, BadRows bad_rows,
                             const UncertaintyOptions& uncertainty, const Progress& progress) {
+  require_valid(options);
   check_uncertainty(uncertainty);
   const ReadRecorder recorder;
   const auto procedure = std::make_shared<RoadLoadProcedure>();
@@ -143,6 +145,7 @@ RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOpti
 }
 
 RoadLoad calc_default_road_load(const DefaultRoadLoadOptions& options) {
+  require_valid(options);
   const Eigen::Vector3d load = estimation::calc_default_road_load(options.mass_kg, options.width_m, options.height_m);
   constexpr const char* kKeys[] = {"f0_N", "f1_N_per_km_h", "f2_N_per_km_h2"};
   constexpr const char* kUnits[] = {"N", "N/(km/h)", "N/(km/h)2"};

@@ -5,6 +5,7 @@
 
 #include "api/add_uncertainty.h"
 #include "api/report_files.h"
+#include "api/road_load_options.h"
 #include "estimation/road_load/checked_road_load.h"
 #include "estimation/road_load/road_load_report.h"
 #include "estimation/road_load/road_load_uncertainty.h"
@@ -105,6 +106,7 @@ std::string find_coastdown_role(const std::string& path) {
 RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
                        const std::vector<std::string>& sessions, BadRows bad_rows,
                        const UncertaintyOptions& uncertainty, const Progress& progress) {
+  require_valid(given);
   check_uncertainty(uncertainty);
   const ReadRecorder recorder;
   const auto file = std::make_shared<CoastdownFile>(estimation::read_coastdowns(path, bad_rows));

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "api/add_uncertainty.h"
+#include "api/option_range.h"
 #include "api/report_files.h"
 #include "estimation/rolling_law/rolling_output.h"
 #include "estimation/rolling_law/rolling_uncertainty.h"
@@ -22,6 +23,12 @@ using estimation::RollingTest;
 
 /// The points of a file, and of the tire what the options say.
 RollingTest read_points(const std::string& path, const RollingLawOptions& options) {
+  if (options.maximum_load_N.has_value()) {
+    require_within({"--maximum-load", 100.0, 100000.0, "N"}, *options.maximum_load_N);
+  }
+  if (options.base_pressure_Pa.has_value()) {
+    require_within({"--base-pressure", 50.0, 1500.0, "kPa"}, 1e-3 * *options.base_pressure_Pa);
+  }
   RollingTest test = estimation::read_rolling_test(
       path, options.warm_pressure ? estimation::PressureTaken::kWarm : estimation::PressureTaken::kSet);
   if (options.warm_pressure && !test.is_simulated) {
@@ -172,6 +179,8 @@ RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options, 
 
 std::string export_coefficients(const std::string& fit_json, CoefficientTarget target,
                                 const CoefficientOptions& options) {
+  if (options.tire_radius_m.has_value()) require_within({"--tire-radius", 0.05, 2.0, "m"}, *options.tire_radius_m);
+  require_within({"--tires", 1.0, 100.0, ""}, options.tires);
   const exports::RollingCoefficients coefficients = exports::read_rolling_coefficients(fit_json);
   switch (target) {
     case CoefficientTarget::kTydex:

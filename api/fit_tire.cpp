@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "api/data.h"
+#include "api/option_range.h"
 #include "diagnosis/checks/set_checks.h"
 #include "measurements/run_rows.h"
 #include "report/fit_pages.h"
@@ -30,6 +31,7 @@ estimation::TireFit fit_checked(const measurements::MeasurementSet& set, const T
 }  // namespace
 
 TireFit fit_tire(const MeasurementSet& measured, const TireFitOptions& options) {
+  require_threads(options.threads);
   const diagnosis::SetChecks checks = diagnosis::check_set(measured.data().set, options.threads);
   const auto set =
       std::make_shared<const measurements::MeasurementSet>(diagnosis::leave_out(measured.data().set, checks.left_out));

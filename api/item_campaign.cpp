@@ -13,6 +13,7 @@
 #include "api/folder_lock.h"
 #include "api/item_table.h"
 #include "api/open_campaign.h"
+#include "api/option_range.h"
 #include "api/sensitivity.h"
 #include "api/set_items.h"
 #include "campaigns/items.h"
@@ -21,6 +22,7 @@
 #include "exports/tree.h"
 #include "report/diagnosis_page.h"
 #include "report/sensitivity_page.h"
+#include "rollrig/diagnose.h"
 #include "sim/core/columns.h"
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
@@ -89,6 +91,7 @@ std::vector<std::string> define_diagnosis_campaign(const DiagnosisCampaignInput&
   if (input.sets.empty()) {
     throw InputError({"there is no set to diagnose", "", 0, "sets", "", "folders of measurement sets", ""});
   }
+  require_comparable_effects(input.only, input.without);
   diagnosis::require_valid_options(make_diagnosis_options(input));
   return write_definition(folder, [&input] { return make_definition(input); });
 }
@@ -96,6 +99,7 @@ std::vector<std::string> define_diagnosis_campaign(const DiagnosisCampaignInput&
 ItemCampaign::ItemCampaign(const std::string& folder) : data_(std::make_shared<Data>(Data{open_campaign(folder)})) {}
 
 CampaignState ItemCampaign::carry_out(const CampaignPart& part, int threads, const Progress& progress) const {
+  require_threads(threads);
   const std::unique_ptr<CampaignItems> items = data_->make_watched_items();
   const auto advance = [&progress](double done) {
     if (progress) progress(done, "");

@@ -1,14 +1,18 @@
 #include "rollrig/loop.h"
 
 #include "api/data.h"
+#include "api/option_range.h"
 #include "diagnosis/loop/test_loop.h"
 #include "diagnosis/output/diagnosis_json.h"
 #include "diagnosis/output/summary.h"
 #include "report/diagnosis_page.h"
+#include "rollrig/diagnose.h"
 
 namespace rollrig {
 
 Loop advance_loop(const LoopInput& input) {
+  require_comparable_effects(input.diagnosis.only, input.diagnosis.without);
+  require_threads(input.diagnosis.threads);
   const auto step = std::make_shared<const diagnosis::LoopStep>(diagnosis::advance_loop(input));
   Loop loop;
   static_cast<LoopLedger&>(loop) = step->ledger;

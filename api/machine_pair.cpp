@@ -1,6 +1,8 @@
 #include "rollrig/machine_pair.h"
 
 #include "api/data.h"
+#include "api/effect_options.h"
+#include "api/option_range.h"
 #include "diagnosis/output/machine_pair_output.h"
 #include "diagnosis/pair/machine_pair.h"
 #include "diagnosis/terms/machine_terms.h"
@@ -9,6 +11,8 @@
 namespace rollrig {
 
 PairDiagnosis diagnose_pair(const MeasurementSet& a, const MeasurementSet& b, const DiagnosisOptions& options) {
+  require_apart(options.only, options.without);
+  require_threads(options.threads);
   const auto found =
       std::make_shared<const PairFindings>(diagnosis::diagnose_pair(a.data().set, b.data().set, options));
   PairDiagnosis result;

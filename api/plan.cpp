@@ -1,13 +1,17 @@
 #include "rollrig/plan.h"
 
 #include "api/data.h"
+#include "api/option_range.h"
 #include "diagnosis/campaign/campaign.h"
 #include "diagnosis/campaign/campaign_files.h"
 #include "report/campaign_page.h"
+#include "rollrig/diagnose.h"
 
 namespace rollrig {
 
 Campaign plan_campaign(const CampaignInput& input) {
+  require_comparable_effects(input.only, input.without);
+  require_threads(input.threads);
   const auto planned = std::make_shared<const diagnosis::PlannedCampaign>(diagnosis::plan_campaign(input));
   Campaign campaign;
   campaign.machine = diagnosis::name_machine(planned->set);

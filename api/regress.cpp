@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "api/option_range.h"
 #include "api/regression_items.h"
 #include "campaigns/items.h"
 #include "report/list_pages.h"
@@ -84,6 +85,7 @@ std::vector<RegressedRun> carry_out_runs(const std::string& folder, const std::v
 }  // namespace
 
 Regression regress(const std::string& folder, const RegressionOptions& options) {
+  require_threads(options.threads);
   Regression found;
   found.folder = folder.empty() ? (fs::path(find_assets_folder()) / "regression").string() : folder;
   const std::vector<std::string> names = list_names(found.folder, ".toml");

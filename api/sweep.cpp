@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "api/data.h"
+#include "api/option_range.h"
 #include "api/run_items.h"
 #include "api/sweep_items.h"
 #include "api/unfinished_sweep.h"
@@ -241,6 +242,7 @@ void Sweep::remove_unfinished() const {
 }
 
 SweepResult Sweep::carry_out(const Progress& progress) const {
+  require_threads(data_->items.input().threads);
   const auto advance = [&progress](double done) {
     if (progress) progress(done, "");
   };

@@ -16,8 +16,8 @@ void CoefficientOutputs::add_to(CLI::App& command) {
   add_output_option(command, "--fastsim", fastsim, "Likewise: wheel_rr_coef of FASTSim");
   add_output_option(command, "--co2mpas", co2mpas, "Likewise: rolling_resistance_coeff, f0, f1, f2 of CO2MPAS");
   command.add_option("--tire-radius", how.tire_radius_m, "Unloaded radius of the tire, m, for --tir")
-      ->check(in_range(0.05, 2.0));
-  command.add_option("--tires", how.tires, "Tires that share f0, f1, f2 [4]")->check(in_range(1, 100));
+      ->check(shown_range(0.05, 2.0));
+  command.add_option("--tires", how.tires, "Tires that share f0, f1, f2 [4]")->check(shown_range(1, 100));
 }
 
 std::vector<OutputFile> CoefficientOutputs::list_files() const {

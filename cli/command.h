@@ -59,6 +59,13 @@ CLI::Validator in_range(Number lowest, Number highest) {
   });
 }
 
+/// What --help shows of limits that the library checks, for C++ and Python too.
+template <class Number>
+CLI::Validator shown_range(Number lowest, Number highest) {
+  CLI::Validator range = CLI::Range(lowest, highest);
+  return range.operation([](std::string&) { return std::string(); });
+}
+
 /// CLI11's message, and the nearest option or subcommand when a word was not expected.
 InputProblem explain_usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
@@ -112,8 +119,6 @@ struct ComparisonOptions {
   void add_to(CLI::App& command);
   /// Throws InputError: an effect that does not exist, with the nearest; one that is asked for and left out.
   void check() const;
-  /// The second of these alone.
-  void check_apart() const;
 };
 
 /// Each adds one subcommand with its options to `app` and sets `action` when that subcommand is called.

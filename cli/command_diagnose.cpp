@@ -51,7 +51,6 @@ void require_consistent(const DiagnoseOptions& options) {
     options.comparison.check();
     return;
   }
-  options.comparison.check_apart();  // whether there are such effects says the comparison, which knows more of them
   if (options.set.empty() || !options.plan.empty() || !options.loop.empty()) {
     throw usage_error("two machines are compared, and no test is planned for one of them", "--against", options.against,
                       "the set of each machine, without --plan and --loop");

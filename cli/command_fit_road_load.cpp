@@ -134,9 +134,6 @@ RoadLoadBounds parse_bounds(const std::string& given) {
     const auto [which, unit] = *coefficient;
     bounds.lower[which] = unit * parse_edge(part.substr(equals + 1, colon - equals - 1), -none, given);
     bounds.upper[which] = unit * parse_edge(part.substr(colon + 1), none, given);
-    if (bounds.lower[which] > bounds.upper[which]) {
-      throw usage_error(fmt::format("bound '{}' has its ends swapped", part), "--bounds", given, "from <= to");
-    }
   }
   return bounds;
 }
@@ -148,18 +145,14 @@ void set_mass(const FitRoadLoadOptions& options, RoadLoadFitOptions& to) {
     }
     return;
   }
-  if (!options.mass_kg.has_value()) {
-    to.recorded_vehicle = true;  // a recording tells it; of any other file it is missing
-    return;
-  }
   to.mass_kg = options.mass_kg;
   to.rotating_mass_kg = options.rotating_mass_kg;
-  if (options.rotating_mass_kg.value_or(0.0) > *options.mass_kg) {
-    throw usage_error("more mass rotates than the vehicle has", "--rotating-mass",
-                      fmt::format("{:.6g}", *options.rotating_mass_kg),
-                      fmt::format("at most --mass, {:.6g} kg; of cars about 3 % of it", *options.mass_kg));
-  }
+  to.recorded_vehicle = !options.mass_kg.has_value();  // a recording tells it; of any other file it is missing
   if (!options.effective_mass_kg.has_value()) return;
+  if (!options.mass_kg.has_value()) {
+    throw usage_error("--effective-mass is given without the test mass", "--effective-mass",
+                      fmt::format("{:.6g}", *options.effective_mass_kg), "--mass <kg> beside it, or none of them");
+  }
   if (options.rotating_mass_kg.has_value() || *options.effective_mass_kg < *options.mass_kg) {
     throw usage_error("--effective-mass is test mass and rotating mass together", "--effective-mass",
                       fmt::format("{:.6g}", *options.effective_mass_kg),
@@ -178,11 +171,6 @@ RoadLoadFitOptions make_fit_options(const FitRoadLoadOptions& options) {
   to.speed_from_m_s = kPerKmh * options.speed_from_km_h;
   if (options.speed_to_km_h.has_value()) to.speed_to_m_s = kPerKmh * *options.speed_to_km_h;
   to.bin_width_m_s = kPerKmh * options.bin_width_km_h;
-  if (options.speed_to_km_h.has_value() && *options.speed_to_km_h <= options.speed_from_km_h) {
-    throw usage_error("--speed-to is not above --speed-from", "--speed-to",
-                      fmt::format("{:.6g}", *options.speed_to_km_h),
-                      fmt::format("more than {:.6g}", options.speed_from_km_h));
-  }
   if (!options.bounds.empty()) to.bounds = parse_bounds(options.bounds);
   if (!options.target.empty()) to.target = parse_target(options.target);
   to.leave_out = options.leave_out;
@@ -255,24 +243,20 @@ struct DefaultRoadLoadCommandOptions {
 };
 
 int default_road_load_command(const DefaultRoadLoadCommandOptions& options) {
-  if (!options.load.tire_class.empty() && options.load.rrc_N_per_kN <= 0.0) {
-    throw usage_error("a class of tires alone does not tell the class of rolling resistance", "--tire-class",
-                      options.load.tire_class, "--rrc <N/kN> beside it");
-  }
   Output output(options.output);
   output.show(calc_default_road_load(options.load));
   return kDone;
 }
 
 void add_vehicle_options(CLI::App& command, FitRoadLoadOptions& options) {
-  const CLI::Validator kMassRange = in_range(1.0, 1e6);  // Assumed: a heavy dump truck has 6e5 kg
+  const CLI::Validator kMassRange = shown_range(1.0, 1e6);  // Assumed: a heavy dump truck has 6e5 kg
   command.add_option("--mass", options.mass_kg, "Test mass, kg")->check(kMassRange);
   command.add_option("--rotating-mass", options.rotating_mass_kg, "Mass that rotates, kg [3 % of --mass]")
-      ->check(in_range(0.0, 1e6));
+      ->check(shown_range(0.0, 1e6));
   command.add_option("--effective-mass", options.effective_mass_kg, "Both together, kg")->check(kMassRange);
   command.add_flag("--per-mass", options.per_mass, "A, B, C per unit of effective mass; no mass needed");
   command.add_option("--drag-area", options.drag_area_m2, "Cd A that the wind acts on, m2 [from C]")
-      ->check(in_range(0.01, 1000.0));
+      ->check(shown_range(0.01, 1000.0));
 }
 
 void add_procedure_options(CLI::App& command, FitRoadLoadOptions& options) {
@@ -284,31 +268,31 @@ void add_procedure_options(CLI::App& command, FitRoadLoadOptions& options) {
   command
       .add_option("--corrected-mass", options.corrected_mass_kg,
                   "Test mass TM to which a procedure corrects f0, kg [--mass]")
-      ->check(in_range(1.0, 1e6));
+      ->check(shown_range(1.0, 1e6));
   command
       .add_option("--wheel-radius", options.wheel_radius_m,
                   "Dynamic radius of the torque-meter method, m [from the column wheel_speed_Hz]")
-      ->check(in_range(0.1, 2.0));
+      ->check(shown_range(0.1, 2.0));
   command.add_option("--yaw-degree", options.yaw_degree, "Of the drag area of j2263 by yaw angle [2]")
-      ->check(in_range(0, 4));
+      ->check(shown_range(0, 4));
 }
 
 void add_method_options(CLI::App& command, FitRoadLoadOptions& options) {
   command.add_option("--reference-temperature", options.reference_temperature_degC, "degC [20]")
-      ->check(in_range(-50.0, 60.0));
+      ->check(shown_range(-50.0, 60.0));
   command
       .add_option("--reference-pressure", options.reference_pressure_kPa,
                   "Sets the air density, kPa [98.21; 100 of WLTP]")
-      ->check(in_range(50.0, 110.0));
+      ->check(shown_range(50.0, 110.0));
   command
       .add_option("--rolling-coefficient-temperature", options.rolling_fall_per_K,
                   "Fall of A and B with ambient, per K [0.0086]")
-      ->check(in_range(0.0, 0.05));
+      ->check(shown_range(0.0, 0.05));
   command.add_option("--speed-from", options.speed_from_km_h, "Lowest speed used, km/h [15]")
-      ->check(in_range(0.0, 500.0));
-  command.add_option("--speed-to", options.speed_to_km_h, "Highest speed used, km/h")->check(in_range(1.0, 500.0));
+      ->check(shown_range(0.0, 500.0));
+  command.add_option("--speed-to", options.speed_to_km_h, "Highest speed used, km/h")->check(shown_range(1.0, 500.0));
   command.add_option("--bin-width", options.bin_width_km_h, "Of the bins that a trace is cut into, km/h [5]")
-      ->check(in_range(1.0, 50.0));
+      ->check(shown_range(1.0, 50.0));
   command.add_option("--session", options.sessions, "Sessions used [all]");
   command.add_option("--leave-out", options.leave_out, "Runs that are not used, as 7 or session/7 [none]");
   command.add_option("--bounds", options.bounds,
@@ -340,17 +324,16 @@ void add_fit_default_road_load(CLI::App& fit, Action& action) {
   const auto [command, options] = add_command<DefaultRoadLoadCommandOptions>(
       fit, action, "default-road-load", "Default road load of the WLTP, without a measurement",
       &default_road_load_command);
-  command->add_option("--mass", options->load.mass_kg, "Test mass, kg")->required()->check(in_range(1.0, 1e6));
+  command->add_option("--mass", options->load.mass_kg, "Test mass, kg")->required()->check(shown_range(1.0, 1e6));
   command->add_option("--width", options->load.width_m, "Width of the vehicle, m")
       ->required()
-      ->check(in_range(0.5, 5.0));
+      ->check(shown_range(0.5, 5.0));
   command->add_option("--height", options->load.height_m, "Height of the vehicle, m")
       ->required()
-      ->check(in_range(0.5, 5.0));
-  CLI::Option* tire_class = command->add_option("--tire-class", options->load.tire_class, "C1, C2 or C3 [none]");
+      ->check(shown_range(0.5, 5.0));
+  command->add_option("--tire-class", options->load.tire_class, "C1, C2 or C3 [none]");
   command->add_option("--rrc", options->load.rrc_N_per_kN, "Rolling resistance of that tire, for its class, N/kN")
-      ->needs(tire_class)
-      ->check(in_range(1.0, 30.0));
+      ->check(shown_range(1.0, 30.0));
   options->output.add_to(*command, "File for road_load.json, - for standard output", "Folder for road_load.json");
 }
 

@@ -50,11 +50,11 @@ void add_rolling_law_options(CLI::App& command, FitRollingLawOptions& options) {
   command
       .add_option("--maximum-load", options.fit.maximum_load_N,
                   "Maximum load of the tire, N, for the standard reference condition [that of the result]")
-      ->check(in_range(100.0, 100000.0));
+      ->check(shown_range(100.0, 100000.0));
   command
       .add_option("--base-pressure", options.base_pressure_kPa,
                   "Base pressure, kPa gauge, likewise [that of the result]")
-      ->check(in_range(50.0, 1500.0));
+      ->check(shown_range(50.0, 1500.0));
   command.add_flag("--warm-pressure", options.fit.warm_pressure,
                    "Of a result: take the pressure in the warm tire, not the one that was set cold");
   options.output.add_to(command, "File for fit.json, - for standard output", "Folder for fit.json and residuals.csv");

@@ -13,7 +13,6 @@ struct PlanOptions {
 };
 
 int plan_command(const PlanOptions& options) {
-  options.effects.check();
   CampaignInput input = options.campaign;
   input.only = options.effects.only;
   input.without = options.effects.without;

@@ -42,6 +42,9 @@ std::string explain_effect(const std::string& name);
 std::vector<std::string> explainable_names();
 /// Names that DiagnosisOptions::only and ::without take.
 std::vector<std::string> comparable_names();
+/// What every diagnosis checks first, but for diagnose_pair(), which knows more effects.
+/// Throws InputError: an effect that is not among comparable_names(), with the nearest; one that is in both lists.
+void require_comparable_effects(const std::vector<std::string>& only, const std::vector<std::string>& without);
 
 }  // namespace rollrig
 #pragma GCC visibility pop

@@ -137,6 +137,15 @@ void require_known_columns(const GuessSource& source, const Map& given, const ch
   }
 }
 
+void require_date_order(const std::string& order) {
+  const std::vector<std::string> known{"ymd", "dmy", "mdy"};
+  if (order.empty() || std::find(known.begin(), known.end(), order) != known.end()) return;
+  InputProblem problem = unknown_name("order of a date", order, known);
+  problem.file = "command line";
+  problem.key = "--date-order";
+  throw InputError(problem);
+}
+
 /// The median of the times between rows.
 double find_interval_s(const Guess& guess) {
   std::vector<double> steps_s;
@@ -174,6 +183,7 @@ InputError GuessSource::problem(const std::string& what, const std::string& opti
 Guess guess_logs(const GuessOptions& options) { return guess_logs(options, read_tire_of(options)); }
 
 Guess guess_logs(const GuessOptions& options, const models::TireFile& tire) {
+  require_date_order(options.date_order);
   Guess guess{{options, {}, {}, {}, nullptr, tire, 0.0}, {}, {}, {}, {}, 0.0};
   GuessSource& source = guess.source;
   const std::vector<std::string> files = list_log_files(options.folder);
