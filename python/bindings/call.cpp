@@ -1,62 +1,122 @@
 #include "call.h"
 
+#include <rollrig/stop.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
 namespace rollrig::python {
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenLooks{50};  // Assumed: Ctrl-C seems immediate
+using namespace std::chrono_literals;
 
-/// Calls of the library that are being carried out. An interruption stops all of them, since it is one of the process;
-/// it is taken back when the last of them has ended.
+constexpr auto kBetweenLooks = 50ms;  // Assumed: Ctrl-C seems immediate
+constexpr auto kUntilEnd = 10s;       // Assumed: longer than any step of a calculation
+
+[[noreturn]] void wait_forever() {
+  while (true) std::this_thread::sleep_for(1h);
+}
+
+/// Takes the GIL back. Once Python ends, it ends a thread that does so by pthread_exit(), which C++ sees as an
+/// exception; destructors without the GIL, or a function that is noexcept, would then abort the process.
+void take_gil(PyThreadState* state) {
+  try {
+    PyEval_RestoreThread(state);
+  } catch (...) {
+    wait_forever();
+  }
+}
+
+/// Calls of the library that are being carried out.
 class RunningCalls {
  public:
   void begin() {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_ending_) throw std::runtime_error("rollrig cannot be called any more: Python ends");
     ++count_;
   }
   void end() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (--count_ == 0) clear_interrupt();
+    if (--count_ > 0) return;
+    if (!is_ending_) clear_interrupt();  // an interruption is one of the process
+    all_ended_.notify_all();
+  }
+  void end_all() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    is_ending_ = true;
+    request_interrupt();
+    all_ended_.wait_for(lock, kUntilEnd, [this] { return count_ == 0; });
+  }
+  bool are_ending() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return is_ending_;
   }
 
  private:
   std::mutex mutex_;
+  std::condition_variable all_ended_;
   int count_ = 0;
+  bool is_ending_ = false;
 };
 
+/// Never destroyed: threads may use it until the process is gone.
 RunningCalls& running_calls() {
-  static RunningCalls calls;
-  return calls;
+  static auto* calls = new RunningCalls;
+  return *calls;
+}
+
+struct Counted {
+  Counted() { running_calls().begin(); }
+  ~Counted() { running_calls().end(); }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+};
+
+/// Takes the GIL back after a call, or after a look at one. Where Python ends, the call has ended, and this thread
+/// never goes on.
+void take_gil(PyThreadState* state, bool is_ending) {
+  if (is_ending) {
+    running_calls().end();
+    wait_forever();
+  }
+  take_gil(state);
+}
+
+bool is_interrupt_of_main_thread(const py::error_already_set& error) {
+  if (!error.matches(PyExc_KeyboardInterrupt)) return false;
+  const py::module_ threading = py::module_::import("threading");
+  return threading.attr("current_thread")().is(threading.attr("main_thread")());
 }
 
 /// What the thread that works tells the thread that waits.
 class Call {
  public:
-  explicit Call(const std::function<void(const Progress&)>& work) {
-    running_calls().begin();
-    worker_ = std::thread([this, &work] { do_work(work); });
+  Call(const std::function<void(const Progress&)>& work, bool tells_progress) {
+    worker_ = std::thread([this, &work, tells_progress] { do_work(work, tells_progress); });
   }
-  ~Call() {
-    {
-      const py::gil_scoped_release released;
-      worker_.join();
-    }
-    running_calls().end();
-  }
+  /// The work has ended.
+  ~Call() { worker_.join(); }
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
   /// Whether it has ended within the time.
   bool wait() {
-    const py::gil_scoped_release released;
-    std::unique_lock<std::mutex> lock(mutex_);
-    return ended_.wait_for(lock, kBetweenLooks, [this] { return has_ended_; });
+    PyThreadState* state = PyEval_SaveThread();
+    bool has_ended = false;
+    bool is_ending = false;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      has_ended = ended_.wait_for(lock, kBetweenLooks, [this] { return has_ended_; });
+      is_ending = running_calls().are_ending();
+      if (is_ending) ended_.wait(lock, [this] { return has_ended_; });
+    }
+    take_gil(state, is_ending);
+    return has_ended;
   }
   /// Shows news, with the GIL.
   void show(const py::object& show) {
@@ -72,7 +132,7 @@ class Call {
     show(done, stage);
   }
   void stop() {
-    request_interrupt();
+    stop_.request();
     while (!wait()) continue;
   }
   void throw_failure() const {
@@ -80,9 +140,11 @@ class Call {
   }
 
  private:
-  void do_work(const std::function<void(const Progress&)>& work) {
+  void do_work(const std::function<void(const Progress&)>& work, bool tells_progress) {
     try {
-      work([this](double done, const std::string& stage) { note(done, stage); });
+      const StopScope scope(stop_);
+      const Progress progress = [this](double done, const std::string& stage) { note(done, stage); };
+      work(tells_progress ? progress : Progress());
     } catch (...) {
       failure_ = std::current_exception();
     }
@@ -97,6 +159,7 @@ class Call {
     has_news_ = true;
   }
 
+  Stop stop_;
   std::mutex mutex_;
   std::condition_variable ended_;
   bool has_ended_ = false;
@@ -110,17 +173,43 @@ class Call {
 }  // namespace
 
 void carry_out(const py::object& show, const std::function<void(const Progress&)>& work) {
-  Call call(work);
+  const Counted counted;
+  Call call(work, !show.is_none());
   try {
     while (!call.wait()) {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (!show.is_none()) call.show(show);
     }
+  } catch (const py::error_already_set& error) {
+    if (is_interrupt_of_main_thread(error)) request_interrupt();
+    call.stop();
+    throw;
   } catch (...) {
     call.stop();
     throw;
   }
   call.throw_failure();
+}
+
+void do_without_gil(const std::function<void()>& work) {
+  std::exception_ptr failure;
+  {
+    const Counted counted;
+    PyThreadState* state = PyEval_SaveThread();
+    try {
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    take_gil(state, running_calls().are_ending());
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+void end_calls() {
+  PyThreadState* state = PyEval_SaveThread();
+  running_calls().end_all();
+  take_gil(state);
 }
 
 }  // namespace rollrig::python

@@ -18,8 +18,7 @@ void define_runs(const std::string& folder, const py::dict& run, const py::dict&
   Keywords keywords(options);
   keywords.read("drawn", input.drawn).read("drawn_sd", input.drawn_sd).read("list", input.list);
   keywords.read("design", input.design).read("points", input.points).require_all_read();
-  const py::gil_scoped_release released;
-  define_run_campaign(input, folder);
+  do_without_gil([&] { define_run_campaign(input, folder); });
 }
 
 py::list define_diagnoses(const std::string& folder, const py::dict& options) {
@@ -42,10 +41,7 @@ std::shared_ptr<CampaignState> carry_out_part(const ItemCampaign& campaign, cons
 
 py::str write_csv(const ItemCampaign& campaign) {
   std::string table;
-  {
-    const py::gil_scoped_release released;
-    campaign.write_csv([&table](const std::string& rows) { table += rows; });
-  }
+  do_without_gil([&] { campaign.write_csv([&table](const std::string& rows) { table += rows; }); });
   return to_str(table);
 }
 

@@ -7,6 +7,7 @@
 #include "bad_rows.h"
 #include "bindings.h"
 #include "call.h"
+#include "files.h"
 #include "keywords.h"
 #include "text.h"
 
@@ -87,12 +88,7 @@ std::shared_ptr<Report> plan(const py::object& show, const py::dict& given) {
 void bind_diagnose(py::module_& module) {
   // Its report is not its first base, which pybind11 has to be told.
   py::class_<Diagnosis, Report, std::shared_ptr<Diagnosis>>(module, "Diagnosis", py::multiple_inheritance())
-      .def("write_plan", [](const Diagnosis& found, const std::string& folder, bool force) {
-        const py::gil_scoped_release released;
-        const FolderFiles files = found.make_plan ? found.make_plan() : FolderFiles();
-        if (!files.empty()) write_folder(folder, files, force);
-        return !files.empty();
-      });
+      .def("make_plan", [](const Diagnosis& found) { return make_files(found.make_plan); });
   module.def("diagnose", &diagnose_set);
   module.def("diagnose_fleet", &diagnose_sets);
   module.def("diagnose_pair", &diagnose_machines);

@@ -1,8 +1,11 @@
 #include <rollrig/run.h>
 
+#include <optional>
+
 #include "arrays.h"
 #include "bindings.h"
 #include "call.h"
+#include "files.h"
 #include "run_input.h"
 #include "text.h"
 
@@ -11,8 +14,9 @@ namespace {
 
 Run make_run(const py::dict& given) {
   const RunInput input = read_run_input(given);
-  const py::gil_scoped_release released;
-  return Run(input);
+  std::optional<Run> run;
+  do_without_gil([&] { run.emplace(input); });
+  return *run;
 }
 
 std::shared_ptr<RunResult> carry_out_run(const Run& run, const py::object& show, const py::dict& uncertainty) {
@@ -47,10 +51,7 @@ py::dict list_records(const std::vector<ResultRecords>& lists) {
 /// Times, phase of each row as an index, phases, channels.
 py::tuple make_recording(const RunResult& result) {
   Recording recording;
-  {
-    const py::gil_scoped_release released;
-    recording = result.make_recording();
-  }
+  do_without_gil([&] { recording = result.make_recording(); });
   py::list phases;
   for (const Phase& phase : recording.phases) {
     phases.append(py::make_tuple(to_str(phase.name), phase.start_s, phase.end_s));
@@ -69,10 +70,8 @@ void bind_run(py::module_& module) {
       .def_readonly("mechanical_closure", &RunResult::mechanical_closure)
       .def_readonly("thermal_closure", &RunResult::thermal_closure)
       .def("make_recording", &make_recording)
-      .def("write_set", [](const RunResult& result, const std::string& folder, bool force) {
-        const py::gil_scoped_release released;
-        if (result.make_set_files) write_folder(folder, result.make_set_files(), force);
-        return static_cast<bool>(result.make_set_files);
+      .def("make_set_files", [](const RunResult& result) {
+        return result.make_set_files ? py::object(make_files(result.make_set_files)) : py::none();
       });
   py::class_<Run>(module, "Run")
       .def(py::init(&make_run))

@@ -16,7 +16,7 @@ std::shared_ptr<SweepResult> carry_out_sweep(const py::object& show, const py::d
   input.run = read_run_input(run);
   input.axes = read_axes(axes);
   Keywords keywords(options);
-  keywords.read("shown", input.shown).read("threads", input.threads).require_all_read();
+  keywords.read("shown_results", input.shown).read("threads", input.threads).require_all_read();
   return std::make_shared<SweepResult>(
       call(show, [&](const Progress& progress) { return Sweep(input).carry_out(progress); }));
 }

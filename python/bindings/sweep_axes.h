@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "keywords.h"
 
 namespace rollrig::python {
 
@@ -15,11 +16,12 @@ namespace rollrig::python {
 inline std::vector<SweepAxis> read_axes(const py::dict& given) {
   std::vector<SweepAxis> axes;
   for (const auto& [name, values] : given) {
-    const std::string key = name.cast<std::string>();
+    const std::string key = to_string(name, "vary");
     if (py::isinstance<py::str>(values)) {
-      axes.push_back(read_sweep_axis(key + "=" + values.cast<std::string>()));
+      axes.push_back(read_sweep_axis(key + "=" + to_string(values, "vary")));
     } else {
-      axes.push_back({key, values.cast<std::vector<std::string>>()});
+      axes.push_back({key, {}});
+      read_argument(values, "vary", axes.back().values);
     }
   }
   return axes;

@@ -1,5 +1,5 @@
 #pragma once
-/// Text of the library as str.
+/// Text of the library as str, and the other way round.
 
 #include <pybind11/pybind11.h>
 
@@ -13,5 +13,10 @@ inline pybind11::str to_str(const std::string& text) {
   if (made == nullptr) throw pybind11::error_already_set();
   return pybind11::reinterpret_steal<pybind11::str>(made);
 }
+
+/// Text of a str (surrogates become the bytes again), of bytes or of a path. `argument` stands in messages.
+/// Throws TypeError for what is none of them, and InputError for half of a character, or a zero, at which the names of
+/// files end.
+std::string to_string(pybind11::handle given, const std::string& argument);
 
 }  // namespace rollrig::python

@@ -8,7 +8,10 @@ import numpy as np
 
 
 class Channel(np.ndarray[Any, np.dtype[np.float64]]):
-    """A NumPy array with `name` and `unit`. A slice keeps both; what is computed from it is a plain array."""
+    """A NumPy array with `name` and `unit`. A slice keeps both; what is computed from it is a plain array.
+
+    Channels of results cannot be changed; copy() of one can.
+    """
 
     name: str
     unit: str
@@ -26,12 +29,29 @@ class Channel(np.ndarray[Any, np.dtype[np.float64]]):
         plain = np.asarray(computed)
         return plain[()] if plain.ndim == 0 else plain
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_unpickle_channel, (np.array(self), self.unit, self.name, self.flags.writeable))
+
+    def __deepcopy__(self, memo: Any) -> Channel:
+        return Channel(np.array(self), self.unit, self.name)
+
     def __repr__(self) -> str:
         return f"{self.name} [{self.unit or '-'}] {np.asarray(self)!r}"
 
 
+def _unpickle_channel(values: Any, unit: str, name: str, is_writeable: bool) -> Channel:
+    values.flags.writeable = is_writeable
+    return Channel(values, unit, name)
+
+
+def freeze(values: Any) -> Any:
+    """An array of a result, which cannot be changed: all who ask for it share it."""
+    values.flags.writeable = False
+    return values
+
+
 def to_channels(listed: list[tuple[str, str, Any]]) -> dict[str, Channel]:
-    return {name: Channel(values, unit, name) for name, unit, values in listed}
+    return {name: Channel(freeze(values), unit, name) for name, unit, values in listed}
 
 
 def to_data_frame(columns: dict[str, Any], units: dict[str, str], index: str | None = None) -> Any:

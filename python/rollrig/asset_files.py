@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from . import _rollrig
+from .settings import PathLike, to_path
 
 
 def scenarios() -> dict[str, str]:
@@ -23,11 +24,11 @@ def assets(folder: str) -> list[str]:
     return _rollrig.list_assets(folder)
 
 
-def find_asset(folder: str, name_or_path: str) -> str:
+def find_asset(folder: str, name_or_path: PathLike) -> str:
     """
     :api find_asset
     """
-    return _rollrig.find_asset(folder, name_or_path)
+    return _rollrig.find_asset(folder, to_path(name_or_path, "name_or_path"))
 
 
 def assets_folder() -> str:
@@ -44,8 +45,8 @@ class Description(str):
         return str(self)
 
 
-def describe(name: str) -> Description:
+def describe(name: PathLike) -> Description:
     """
     :api describe
     """
-    return Description(_rollrig.describe(name))
+    return Description(_rollrig.describe(to_path(name, "name")))

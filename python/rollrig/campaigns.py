@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -11,7 +10,7 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, make_run_input, take_given, to_names
+from .settings import PathLike, make_run_input, take_given, to_count, to_list, to_names, to_path, to_paths
 from .sweeps import Values, make_axes
 
 
@@ -21,6 +20,7 @@ class CampaignState(Report):
     """
 
     _made: _rollrig.CampaignState
+    _kept_properties = (*Report._kept_properties, "items", "done", "failed")
 
     @property
     def items(self) -> int:
@@ -42,7 +42,7 @@ class Campaign:
     """
 
     def __init__(self, folder: PathLike) -> None:
-        self._campaign = _rollrig.ItemCampaign(os.fspath(folder))
+        self._campaign = _rollrig.ItemCampaign(to_path(folder, "folder"))
 
     def run(self, *, part: str | None = None, threads: int = 0, progress: Progress = None) -> CampaignState:
         """
@@ -50,7 +50,7 @@ class Campaign:
         * part: "3/10" is the third of ten parts; None is all.
         """
         with progress_display(progress) as show:
-            return CampaignState(self._campaign.carry_out(show, part, threads))
+            return CampaignState(self._campaign.carry_out(show, part, to_count(threads, "threads")))
 
     @property
     def state(self) -> CampaignState:
@@ -105,9 +105,10 @@ def new_campaign(folder: PathLike, scenario: PathLike, *,
     """
     names = {"tire": tire, "rig": rig, "vehicle": vehicle, "fidelity": fidelity, "baseline": baseline,
              "sensors": sensors, "seed": seed}
-    options = {"drawn": [*drawn], "drawn_sd": [*drawn_sd], "list": list, "design": design, "points": points}
-    _rollrig.define_run_campaign(os.fspath(folder), make_run_input(scenario, names, settings), make_axes(vary or {}),
-                                 take_given(options))
+    options = {"drawn": to_list(drawn, "drawn"), "drawn_sd": to_list(drawn_sd, "drawn_sd"), "list": list,
+               "design": design, "points": points}
+    _rollrig.define_run_campaign(to_path(folder, "folder"), make_run_input(scenario, names, settings),
+                                 make_axes(vary or {}), take_given(options))
     return Campaign(folder)
 
 
@@ -120,7 +121,7 @@ def new_diagnosis_campaign(folder: PathLike, sets: Sequence[PathLike], *,
     :members DiagnosisCampaignInput
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    options = {"sets": [os.fspath(each) for each in sets], "only": to_names(only), "without": to_names(without),
+    options = {"sets": to_paths(sets, "sets"), "only": to_names(only, "only"), "without": to_names(without, "without"),
                "smallest_effect_percent": smallest_effect_percent, "skip_bad_rows": skip_bad_rows}
-    _rollrig.define_diagnosis_campaign(os.fspath(folder), take_given(options))
+    _rollrig.define_diagnosis_campaign(to_path(folder, "folder"), take_given(options))
     return Campaign(folder)

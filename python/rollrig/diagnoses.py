@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,13 +10,14 @@ from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
 from .sets import MeasurementSet, as_set
-from .settings import PathLike, take_given, to_names
+from .settings import PathLike, take_given, to_flag, to_names, to_path, to_paths, to_skip
 
 
 class Diagnosis(Report):
     """The diagnosis of one set. `data` has all that it finds, under the keys of docs/diagnosis.md."""
 
     _made: _rollrig.Diagnosis
+    _kept_methods = (*Report._kept_methods, "make_plan")
 
     @property
     def verdict(self) -> str:
@@ -41,7 +41,10 @@ class Diagnosis(Report):
 
     def write_plan(self, folder: PathLike, force: bool = False) -> bool:
         """Writes the first proposed test as files for run(), with plan.txt. False: no test is proposed."""
-        return self._made.write_plan(os.fspath(folder), force)
+        files = self._made.make_plan()
+        if files:
+            _rollrig.write_folder(to_path(folder, "folder"), files, to_flag(force, "force"))
+        return bool(files)
 
 
 class Loop(Report):
@@ -52,6 +55,9 @@ class Loop(Report):
     def __init__(self, made: tuple[_rollrig.Report, list[str]]) -> None:
         super().__init__(made[0])
         self.missing = made[1]
+
+    def _get_own_state(self) -> dict[str, Any]:
+        return {"missing": self.missing}
 
     @property
     def state(self) -> str:
@@ -78,7 +84,7 @@ def diagnose(set: MeasurementSet | PathLike, *, only: Sequence[str] = (), withou
     :members DiagnosisOptions
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    given = {"only": to_names(only), "without": to_names(without), "threads": threads,
+    given = {"only": to_names(only, "only"), "without": to_names(without, "without"), "threads": threads,
              "smallest_effect_percent": smallest_effect_percent}
     with progress_display(progress) as show:
         return Diagnosis(_rollrig.diagnose(show, as_set(set, skip_bad_rows)._set, take_given(given)))
@@ -93,10 +99,10 @@ def diagnose_fleet(folders: Sequence[PathLike], *, only: Sequence[str] = (), wit
     :members DiagnosisOptions
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    given = {"only": to_names(only), "without": to_names(without), "threads": threads,
+    given = {"only": to_names(only, "only"), "without": to_names(without, "without"), "threads": threads,
              "smallest_effect_percent": smallest_effect_percent}
     with progress_display(progress) as show:
-        return Report(_rollrig.diagnose_fleet(show, [os.fspath(each) for each in folders], skip_bad_rows,
+        return Report(_rollrig.diagnose_fleet(show, to_paths(folders, "folders"), to_skip(skip_bad_rows),
                                               take_given(given)))
 
 
@@ -109,7 +115,7 @@ def diagnose_pair(a: MeasurementSet | PathLike, b: MeasurementSet | PathLike, *,
     :members DiagnosisOptions
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    given = {"only": to_names(only), "without": to_names(without), "threads": threads}
+    given = {"only": to_names(only, "only"), "without": to_names(without, "without"), "threads": threads}
     with progress_display(progress) as show:
         return Report(_rollrig.diagnose_pair(show, as_set(a, skip_bad_rows)._set, as_set(b, skip_bad_rows)._set,
                                              take_given(given)))
@@ -126,9 +132,9 @@ def advance_loop(set: PathLike, folder: PathLike, *, hours: float | None = None,
     :members DiagnosisOptions
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    given = {"set": set, "folder": folder, "hours": hours, "test_failed": test_failed, "only": to_names(only),
-             "without": to_names(without), "threads": threads, "smallest_effect_percent": smallest_effect_percent,
-             "skip_bad_rows": skip_bad_rows}
+    given = {"set": set, "folder": folder, "hours": hours, "test_failed": test_failed, "only": to_names(only, "only"),
+             "without": to_names(without, "without"), "threads": threads,
+             "smallest_effect_percent": smallest_effect_percent, "skip_bad_rows": skip_bad_rows}
     with progress_display(progress) as show:
         return Loop(_rollrig.advance_loop(show, take_given(given)))
 
@@ -141,8 +147,8 @@ def plan_campaign(*, rig: Name = None, tire: Name = None, vehicle: Name = None, 
 
     :members CampaignInput
     """
-    given = {"rig": rig, "tire": tire, "vehicle": vehicle, "sensors": sensors, "hours": hours, "only": to_names(only),
-             "without": to_names(without), "threads": threads}
+    given = {"rig": rig, "tire": tire, "vehicle": vehicle, "sensors": sensors, "hours": hours,
+             "only": to_names(only, "only"), "without": to_names(without, "without"), "threads": threads}
     with progress_display(progress) as show:
         return Report(_rollrig.plan_campaign(show, take_given(given)))
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 
 from . import _rollrig
+from .errors import InputError
 from .notebook import Progress, progress_display
 from .report import Report
 from .sets import MeasurementSet, as_set
-from .settings import PathLike, make_uncertainty_options, take_given
+from .settings import PathLike, make_uncertainty_options, take_given, to_list, to_path, to_skip
 from .values import Estimate
 
 Abc = Sequence[float]
@@ -19,6 +19,7 @@ class Fit(Report):
     """A fitted model. `data` has its JSON (docs/formats.md), files() the file of the model."""
 
     _made: _rollrig.Fit
+    _kept_properties = (*Report._kept_properties, "parameters", "warnings", "suspicion")
 
     @property
     def parameters(self) -> dict[str, Estimate]:
@@ -66,13 +67,17 @@ def fit_road_load(file: PathLike, *, mass_kg: float | None = None, rotating_mass
 
     :members RoadLoadFitOptions
     """
+    if per_mass and (mass_kg is not None or rotating_mass_kg is not None):
+        what = "per_mass and a mass exclude each other"
+        raise InputError(what, key="per_mass", allowed="one of them")
     given = {"mass_kg": mass_kg, "rotating_mass_kg": rotating_mass_kg, "drag_area_m2": drag_area_m2,
              "reference_temperature_K": reference_temperature_K, "reference_pressure_Pa": reference_pressure_Pa,
              "rolling_fall_per_K": rolling_fall_per_K, "speed_from_m_s": speed_from_m_s,
              "speed_to_m_s": speed_to_m_s, "bin_width_m_s": bin_width_m_s, "bounds": bounds, "target": target,
-             "leave_out": [*leave_out], "recorded_vehicle": mass_kg is None and not per_mass}
+             "leave_out": to_list(leave_out, "leave_out"), "recorded_vehicle": mass_kg is None and not per_mass}
     with progress_display(progress) as show:
-        return Fit(_rollrig.fit_road_load(show, os.fspath(file), "", [*sessions], skip_bad_rows,
+        return Fit(_rollrig.fit_road_load(show, to_path(file, "file"), "", to_list(sessions, "sessions"),
+                                          to_skip(skip_bad_rows),
                                           make_uncertainty_options(uncertainty, monte_carlo, threads),
                                           take_given(given)))
 
@@ -96,9 +101,10 @@ def evaluate_road_load(file: PathLike, method: str, *, mass_kg: float | None = N
              "reference_temperature_K": reference_temperature_K, "reference_pressure_Pa": reference_pressure_Pa,
              "rolling_fall_per_K": rolling_fall_per_K, "speed_from_m_s": speed_from_m_s,
              "speed_to_m_s": speed_to_m_s, "yaw_degree": yaw_degree, "wheel_radius_m": wheel_radius_m,
-             "sensor_accuracy": sensor_accuracy, "leave_out": [*leave_out]}
+             "sensor_accuracy": sensor_accuracy, "leave_out": to_list(leave_out, "leave_out")}
     with progress_display(progress) as show:
-        return Fit(_rollrig.fit_road_load(show, os.fspath(file), method, [*sessions], skip_bad_rows,
+        return Fit(_rollrig.fit_road_load(show, to_path(file, "file"), method, to_list(sessions, "sessions"),
+                                          to_skip(skip_bad_rows),
                                           make_uncertainty_options(uncertainty, monte_carlo, threads),
                                           take_given(given)))
 
@@ -126,7 +132,7 @@ def fit_j2452(path: PathLike, *, maximum_load_N: float | None = None, base_press
     given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa, "warm_pressure": warm_pressure,
              "urban_cycle": urban_cycle, "highway_cycle": highway_cycle}
     with progress_display(progress) as show:
-        return Fit(_rollrig.fit_law(show, "j2452", os.fspath(path),
+        return Fit(_rollrig.fit_law(show, "j2452", to_path(path, "path"),
                                     make_uncertainty_options(uncertainty, monte_carlo, threads), take_given(given)))
 
 
@@ -140,7 +146,7 @@ def fit_j1269(path: PathLike, *, proportional: bool = False, maximum_load_N: flo
     """
     given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa, "warm_pressure": warm_pressure}
     with progress_display(progress) as show:
-        return Fit(_rollrig.fit_law(show, "j1269_proportional" if proportional else "j1269", os.fspath(path),
+        return Fit(_rollrig.fit_law(show, "j1269_proportional" if proportional else "j1269", to_path(path, "path"),
                                     make_uncertainty_options(uncertainty, monte_carlo, threads), take_given(given)))
 
 
@@ -148,4 +154,4 @@ def fit_drum_coastdown(set: PathLike, *, data: PathLike | None = None, skip_bad_
     """
     :api fit_drum_coastdown
     """
-    return Report(_rollrig.fit_drum_coastdown(os.fspath(set), os.fspath(data or ""), skip_bad_rows))
+    return Report(_rollrig.fit_drum_coastdown(to_path(set, "set"), to_path(data or "", "data"), to_skip(skip_bad_rows)))

@@ -10,7 +10,7 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, take_given
+from .settings import PathLike, take_given, to_path
 
 
 def new_tire(size: str, *, name: str | None = None, load_index: str | None = None, tire_class: str | None = None,
@@ -71,6 +71,6 @@ def new_set(folder: PathLike, *, beside: PathLike | None = None, tire: Name = No
     given = {"folder": folder, "tire": tire, "rig": rig, "vehicle": vehicle, "sensors": sensors, "name": name,
              "columns": columns, "units": units, "values": values, "date_order": date_order,
              "cold_pressure_kPa": cold_pressure_kPa, "rests_min": rests_min}
-    logs = os.fspath(folder)
+    logs = os.fsdecode(to_path(folder, "folder"))
     of_file = beside if beside is not None else logs if os.path.isdir(logs) else os.path.dirname(logs)
-    return Report(_rollrig.guess_set(take_given(given), os.fspath(of_file)))
+    return Report(_rollrig.guess_set(take_given(given), to_path(of_file, "beside")))

@@ -80,6 +80,8 @@ def progress_display(progress: Progress) -> Iterator[Show | None]:
     """What the library calls with the progress of a call; None where nothing is to be shown."""
     if callable(progress):
         yield progress
+    elif not (progress is None or isinstance(progress, bool)):
+        raise TypeError(f"argument 'progress': True, False, None or a function is expected, not {progress!r}")
     elif progress is False or (progress is None and not is_in_notebook()):
         yield None
     else:

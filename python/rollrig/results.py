@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 
 from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, make_uncertainty_options, take_given
+from .settings import PathLike, make_uncertainty_options, take_given, to_count, to_list, to_path, to_paths, to_skip
 
 
 def compare(compared: Sequence[PathLike], *, scenario: str | None = None, skip_bad_rows: bool = False,
@@ -20,7 +19,7 @@ def compare(compared: Sequence[PathLike], *, scenario: str | None = None, skip_b
     :members CompareInput
     """
     with progress_display(progress) as show:
-        return Report(_rollrig.compare(show, [os.fspath(each) for each in compared], scenario or "", skip_bad_rows))
+        return Report(_rollrig.compare(show, to_paths(compared, "compared"), scenario or "", to_skip(skip_bad_rows)))
 
 
 def label(*, rrc_N_per_kN: float | None = None, rrc_sd_N_per_kN: float | None = None, tire_class: str | None = None,
@@ -84,7 +83,7 @@ def export_mat(source: PathLike, *, skip_bad_rows: bool = False) -> bytes:
 
     :api read_export
     """
-    return _rollrig.export_bytes(os.fspath(source), True, skip_bad_rows)
+    return _rollrig.export_bytes(to_path(source, "source"), True, to_skip(skip_bad_rows))
 
 
 def export_hdf5(source: PathLike, *, skip_bad_rows: bool = False) -> bytes:
@@ -92,7 +91,7 @@ def export_hdf5(source: PathLike, *, skip_bad_rows: bool = False) -> bytes:
 
     :api read_export
     """
-    return _rollrig.export_bytes(os.fspath(source), False, skip_bad_rows)
+    return _rollrig.export_bytes(to_path(source, "source"), False, to_skip(skip_bad_rows))
 
 
 def make_fmu(tire: PathLike, *, rig: PathLike = "road", effects: Sequence[str] = (), fmi_version: int = 2) -> bytes:
@@ -101,7 +100,7 @@ def make_fmu(tire: PathLike, *, rig: PathLike = "road", effects: Sequence[str] =
 
     :members FmuInput
     """
-    given = {"tire": tire, "rig": rig, "effects": [*effects], "fmi_version": fmi_version}
+    given = {"tire": tire, "rig": rig, "effects": to_list(effects, "effects"), "fmi_version": fmi_version}
     return _rollrig.make_fmu(take_given(given))
 
 
@@ -121,4 +120,4 @@ def regress(folder: PathLike | None = None, *, threads: int = 0, progress: Progr
     :api regress
     """
     with progress_display(progress) as show:
-        return Report(_rollrig.regress(show, os.fspath(folder or ""), threads))
+        return Report(_rollrig.regress(show, to_path(folder or "", "folder"), to_count(threads, "threads")))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Optional, Union
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
-from .settings import PathLike, make_run_input, make_uncertainty_options
+from .settings import PathLike, make_run_input, make_uncertainty_options, to_flag, to_path
 from .values import Value
 
 if TYPE_CHECKING:
@@ -36,6 +35,9 @@ class Result(Report, Mapping[str, ResultItem]):
     """
 
     _made: _rollrig.RunResult
+    _kept_properties = (*Report._kept_properties, "values", "records", "warnings", "mechanical_closure",
+                        "thermal_closure")
+    _kept_methods = (*Report._kept_methods, "make_recording", "make_set_files")
 
     @cached_property
     def values_by_name(self) -> dict[str, ResultItem]:
@@ -69,9 +71,9 @@ class Result(Report, Mapping[str, ResultItem]):
     @cached_property
     def time_s(self) -> Channel:
         """Times of the rows of the recording."""
-        from .arrays import Channel
+        from .arrays import Channel, freeze
 
-        return Channel(self._recording[0], "s", "time_s")
+        return Channel(freeze(self._recording[0]), "s", "time_s")
 
     @cached_property
     def channels(self) -> dict[str, Channel]:
@@ -92,8 +94,10 @@ class Result(Report, Mapping[str, ResultItem]):
         """Name of the phase of each row."""
         import numpy as np
 
+        from .arrays import freeze
+
         names = np.array([name for name, start_s, end_s in self.phases], dtype=object)
-        return np.asarray(names[self._recording[1]])
+        return freeze(np.asarray(names[self._recording[1]]))  # type: ignore[no-any-return]
 
     def to_pandas(self) -> Any:
         """The recording as a pandas.DataFrame over time_s; attrs["units"] has the unit of each column."""
@@ -104,8 +108,10 @@ class Result(Report, Mapping[str, ResultItem]):
 
     def write_set(self, folder: PathLike, force: bool = False) -> None:
         """Writes the run as a measurement set. Raises ValueError for a scenario that writes none."""
-        if not self._made.write_set(os.fspath(folder), force):
+        files = self._made.make_set_files()
+        if files is None:
             raise ValueError(f"scenario '{self.data['scenario']}' writes no measurement set")
+        _rollrig.write_folder(to_path(folder, "folder"), files, to_flag(force, "force"))
 
     def __getitem__(self, name: str) -> ResultItem:
         return self.values_by_name[name]

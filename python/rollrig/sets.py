@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from . import _rollrig
 from .report import Report
 from .runs import Name
-from .settings import PathLike, take_given
+from .settings import PathLike, take_given, to_path, to_skip
 
 if TYPE_CHECKING:
     from .arrays import Channel
@@ -22,11 +21,11 @@ class MeasuredRun:
     """
 
     def __init__(self, listed: tuple[Any, ...]) -> None:
-        from .arrays import Channel, to_channels
+        from .arrays import Channel, freeze, to_channels
 
         (self.id, self.session, self.initial_tire_temperature_K, self.cold_pressure_Pa, self.rest_before_s, time_s,
          columns) = listed
-        self.time_s = Channel(time_s, "s", "time_s")
+        self.time_s = Channel(freeze(time_s), "s", "time_s")
         self.columns: dict[str, Channel] = to_channels(columns)
 
     def to_pandas(self) -> Any:
@@ -46,7 +45,7 @@ class MeasurementSet:
     """
 
     def __init__(self, folder: PathLike, *, skip_bad_rows: bool = False) -> None:
-        self._set = _rollrig.MeasurementSet(os.fspath(folder), skip_bad_rows)
+        self._set = _rollrig.MeasurementSet(to_path(folder, "folder"), to_skip(skip_bad_rows))
 
     @property
     def name(self) -> str:
@@ -93,21 +92,22 @@ def validate(path: PathLike, *, skip_bad_rows: bool = False) -> FileCheck:
     """
     :api check_file
     """
-    return FileCheck(*_rollrig.check_file(os.fspath(path), skip_bad_rows))
+    return FileCheck(*_rollrig.check_file(to_path(path, "path"), to_skip(skip_bad_rows)))
 
 
 def find_sets(folder: PathLike) -> list[str]:
     """
     :api find_sets
     """
-    return _rollrig.find_sets(os.fspath(folder))
+    return _rollrig.find_sets(to_path(folder, "folder"))
 
 
 def import_logs(mapping: PathLike, *, data: PathLike | None = None, skip_bad_rows: bool = False) -> Report:
     """
     :api import_logs
     """
-    return Report(_rollrig.import_logs(os.fspath(mapping), os.fspath(data or ""), skip_bad_rows))
+    return Report(_rollrig.import_logs(to_path(mapping, "mapping"), to_path(data or "", "data"),
+                                       to_skip(skip_bad_rows)))
 
 
 def import_folder(folder: PathLike, out: PathLike, *, tire: Name = None, rig: Name = None, vehicle: Name = None,
@@ -126,5 +126,5 @@ def import_folder(folder: PathLike, out: PathLike, *, tire: Name = None, rig: Na
     given = {"folder": folder, "tire": tire, "rig": rig, "vehicle": vehicle, "sensors": sensors, "name": name,
              "columns": columns, "units": units, "values": values, "date_order": date_order,
              "cold_pressure_kPa": cold_pressure_kPa, "rests_min": rests_min}
-    Report(_rollrig.import_guessed(take_given(given), os.fspath(out), skip_bad_rows)).write(out, force)
+    Report(_rollrig.import_guessed(take_given(given), to_path(out, "out"), to_skip(skip_bad_rows))).write(out, force)
     return MeasurementSet(out, skip_bad_rows=skip_bad_rows)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, Union
@@ -11,14 +10,16 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, make_run_input, to_text
+from .settings import PathLike, make_run_input, to_list, to_text
 
 Values = Union[str, Sequence[Any], Any]
 """Of a setting: a list, a range or an array, or a text such as "210:310:20"."""
 
 
 def make_axes(vary: Mapping[str, Values]) -> dict[str, str | list[str]]:
-    return {key: values if isinstance(values, str) else [to_text(value) for value in values]
+    if not isinstance(vary, Mapping):
+        raise TypeError(f"argument 'vary': a dict is expected, not {vary!r}")
+    return {key: values if isinstance(values, str) else [to_text(value) for value in to_list(values, f"vary: {key}")]
             for key, values in vary.items()}
 
 
@@ -36,6 +37,7 @@ class SweepResult(Report):
     """
 
     _made: _rollrig.SweepResult
+    _kept_properties = (*Report._kept_properties, "axes", "points", "columns", "failures")
 
     @cached_property
     def axes(self) -> dict[str, list[float | str]]:
@@ -46,7 +48,9 @@ class SweepResult(Report):
     @cached_property
     def results(self) -> dict[str, Any]:
         """By name of each result an array with a number for each point; NaN where it has none."""
-        return self._made.columns
+        from .arrays import freeze
+
+        return {name: freeze(values) for name, values in self._made.columns.items()}
 
     @property
     def failures(self) -> list[str]:
@@ -77,6 +81,6 @@ def sweep(scenario: PathLike, *, vary: Mapping[str, Values], tire: Name = None, 
     names = {"tire": tire, "rig": rig, "vehicle": vehicle, "fidelity": fidelity, "baseline": baseline,
              "sensors": sensors, "seed": seed}
     run = make_run_input(scenario, names, settings)
+    options = {"shown_results": to_list(shown_results, "shown_results"), "threads": threads}
     with progress_display(progress) as show:
-        return SweepResult(_rollrig.sweep(show, run, make_axes(vary),
-                                          {"shown": list(shown_results), "threads": threads}))
+        return SweepResult(_rollrig.sweep(show, run, make_axes(vary), options))

@@ -5,11 +5,13 @@ import csv
 import io
 import json
 import math
+import re
+import shutil
 import unittest
 
 import numpy as np
 import rollrig
-from support import EXAMPLES, InFolder, run_program
+from support import EXAMPLES, InFolder, run_failing_program, run_program
 
 QUICK = {"tire": "a50", "fidelity": "quasi_static", "warm_up_min": 2}
 QUICK_OPTIONS = ["--tire", "a50", "--fidelity", "quasi_static", "--set", "warm_up_min=2"]
@@ -97,6 +99,20 @@ class Fits(InFolder):
                          EXAMPLES / "coastdowns.csv", "--mass", 2203)
         self.assertLess(fit.parameters["A_N"].low_95, fit.parameters["A_N"].value)
 
+    def test_a_road_load_by_a_procedure(self):
+        file = EXAMPLES / "coastdowns.csv"
+        for method, given, words in (
+                ("wltp", {"corrected_to_mass_kg": 1550}, ["--corrected-mass", 1550]),
+                ("j1263", {"speed_to_m_s": 100 / 3.6}, ["--speed-to", 100])):
+            self.check(rollrig.evaluate_road_load(file, method, mass_kg=1500, rotating_mass_kg=40, **given), "fit",
+                       "road-load", file, "--method", method, "--mass", 1500, "--rotating-mass", 40, *words)
+
+    def test_a_drum_that_coasts_down(self):
+        coasts = EXAMPLES / "drum_coastdown" / "coasts.toml"
+        fit = self.check(rollrig.fit_drum_coastdown(coasts), "fit", "drum-coastdown", coasts)
+        run_program("fit", "drum-coastdown", coasts, "--out", self.folder / "told")
+        self.assert_same_files(fit.files(), self.read_files("told"))
+
     def test_laws_of_rolling_resistance(self):
         self.check(rollrig.fit_j2452(EXAMPLES / "j2452_points.csv", uncertainty=True), "fit", "j2452",
                    EXAMPLES / "j2452_points.csv", "--uncertainty")
@@ -105,6 +121,137 @@ class Fits(InFolder):
     def test_a_default_road_load(self):
         self.check(rollrig.default_road_load(mass_kg=1500, width_m=1.8, height_m=1.5), "fit", "default-road-load",
                    "--mass", 1500, "--width", 1.8, "--height", 1.5)
+
+
+class Limits(InFolder):
+    """The library refuses what the command line refuses, in the same words."""
+
+    def check(self, call, *words):
+        done = run_failing_program(*words)
+        with self.assertRaises(rollrig.InputError) as caught:
+            call()
+        told, error = " ".join(done.split()), caught.exception
+        for part in (error.what, error.key, error.value, error.allowed):
+            self.assertIn(part, told)
+        return error
+
+    def test_of_a_road_load(self):
+        file = EXAMPLES / "coastdowns.csv"
+        for name, value, option, shown in (
+                ("reference_temperature_K", 20.0, "--reference-temperature", 20.0 - 273.15),
+                ("reference_pressure_Pa", 98.21, "--reference-pressure", 0.09821),
+                ("rotating_mass_kg", -1.0, "--rotating-mass", -1.0),
+                ("rotating_mass_kg", 1501.0, "--rotating-mass", 1501.0),
+                ("rolling_fall_per_K", 1.0, "--rolling-coefficient-temperature", 1.0),
+                ("speed_from_m_s", -1.0, "--speed-from", -3.6),
+                ("speed_to_m_s", 2.0, "--speed-to", 7.2)):
+            for method in ("least-squares", "j1263"):
+                with self.subTest(name, value=value, method=method):
+                    given = {"mass_kg": 1500, name: value}
+                    error = self.check((lambda: rollrig.evaluate_road_load(file, method, **given)) if method == "j1263"
+                                       else (lambda: rollrig.fit_road_load(file, **given)),
+                                       "fit", "road-load", file, "--method", method, "--mass", 1500,
+                                       f"{option}={shown!r}")
+                    self.assertEqual(error.key, option)
+        self.check(lambda: rollrig.fit_road_load(file, mass_kg=-1500.0), "fit", "road-load", file, "--mass=-1500")
+        self.check(lambda: rollrig.fit_road_load(file, mass_kg=math.nan), "fit", "road-load", file, "--mass=nan")
+        self.check(lambda: rollrig.fit_road_load(file, mass_kg=1500, bin_width_m_s=0.0), "fit", "road-load", file,
+                   "--mass", 1500, "--bin-width", 0)
+        self.check(lambda: rollrig.fit_road_load(file, mass_kg=1500, drag_area_m2=-0.6), "fit", "road-load", file,
+                   "--mass", 1500, "--drag-area=-0.6")
+        self.check(lambda: rollrig.fit_road_load(file, rotating_mass_kg=40), "fit", "road-load", file,
+                   "--rotating-mass", 40)
+        self.check(lambda: rollrig.evaluate_road_load(file, "wltp", mass_kg=1500, corrected_to_mass_kg=0.0), "fit",
+                   "road-load", file, "--method", "wltp", "--mass", 1500, "--corrected-mass", 0)
+        for key, value in (("yaw_degree", 9), ("wheel_radius_m", 33.0), ("wheel_radius_m", 0.3)):
+            with self.assertRaises(rollrig.InputError) as caught:
+                rollrig.evaluate_road_load(file, "j2263", mass_kg=1500, **{key: value})
+            self.assertEqual(caught.exception.key, {"y": "--yaw-degree", "w": "--wheel-radius"}[key[0]])
+        self.check(lambda: rollrig.default_road_load(mass_kg=1500, width_m=1800.0, height_m=1.5), "fit",
+                   "default-road-load", "--mass", 1500, "--width", 1800, "--height", 1.5)
+        self.check(lambda: rollrig.default_road_load(mass_kg=1500, width_m=1.8, height_m=1.5, rrc_N_per_kN=8.0), "fit",
+                   "default-road-load", "--mass", 1500, "--width", 1.8, "--height", 1.5, "--rrc", 8)
+
+    def test_are_those_that_the_help_shows(self):
+        """What --help shows of a limit is what the library says when it is exceeded."""
+        file = EXAMPLES / "coastdowns.csv"
+        shown = re.findall(r"(--[a-z-]+) (?:FLOAT|INT) in \[(\S+) - (\S+)\]", run_program("fit", "road-load", "--help"))
+        self.assertGreater(len(shown), 10)
+        methods = {"--wheel-radius": "torque-meter", "--yaw-degree": "j2263", "--corrected-mass": "wltp"}
+        for option, lowest, highest in shown:
+            if option in ("--effective-mass", "--threads", "--seed"):  # of the command line alone
+                continue
+            mass = [] if option == "--mass" else ["--mass", 1500]
+            for beyond in (float(lowest) - 1, 2 * float(highest)):
+                words = [*mass, "--method", methods.get(option, "least-squares"), f"{option}={beyond:g}"]
+                told = " ".join(run_failing_program("fit", "road-load", file, *words).split())
+                self.assertIn(f"{option} is out of range", told)
+                self.assertIn(f"{float(lowest):.10g} to {float(highest):.10g}", told)
+
+    def test_of_a_law_of_rolling_resistance(self):
+        points = EXAMPLES / "j2452_points.csv"
+        self.check(lambda: rollrig.fit_j2452(points, base_pressure_Pa=250.0), "fit", "j2452", points,
+                   "--base-pressure", 0.25)
+        self.check(lambda: rollrig.fit_j1269(EXAMPLES / "j1269_points.csv", maximum_load_N=-5000.0), "fit", "j1269",
+                   EXAMPLES / "j1269_points.csv", "--maximum-load=-5000")
+
+    def test_of_effects_and_of_dates(self):
+        both = {"only": "bearing_warmup", "without": "bearing_warmup"}
+        self.check(lambda: rollrig.diagnose(EXAMPLES / "hidden_effect", **both), "diagnose", EXAMPLES / "hidden_effect",
+                   "--only", "bearing_warmup", "--without", "bearing_warmup")
+        self.check(lambda: rollrig.plan_campaign(**both), "plan", "--only", "bearing_warmup", "--without",
+                   "bearing_warmup")
+        self.check(lambda: rollrig.plan_campaign(only="bearing_warmpu"), "plan", "--only", "bearing_warmpu")
+        with self.assertRaises(rollrig.InputError) as caught:
+            rollrig.new_set(EXAMPLES / "own_logs", date_order="mydd", tire=EXAMPLES / "hidden_effect" / "tire.toml",
+                            rig=EXAMPLES / "hidden_effect" / "rig.toml")
+        self.assertEqual((caught.exception.key, caught.exception.value), ("--date-order", "mydd"))
+
+    def test_of_threads(self):
+        for call in (lambda: rollrig.fit_j1269(EXAMPLES / "j1269_points.csv", threads=-1),
+                     lambda: rollrig.sweep("iso_28580", vary={"pressure_kPa": [210]}, threads=2000, **QUICK),
+                     lambda: rollrig.diagnose(EXAMPLES / "hidden_effect", threads=-1),
+                     lambda: rollrig.fit_tire(EXAMPLES / "hidden_effect", threads=-1),
+                     lambda: rollrig.plan_campaign(threads=-1)):
+            with self.assertRaises(rollrig.InputError) as caught:
+                call()
+            self.assertEqual(caught.exception.key, "--threads")
+
+
+class Diagnoses(InFolder):
+    """Of several sets, with so few effects that it is quick; diagnose_test.py has those of one."""
+
+    FEW = "bearing_warmup"
+
+    def copy_set(self, name):
+        shutil.copytree(EXAMPLES / "hidden_effect", self.folder / name)
+        return self.folder / name
+
+    def test_of_a_fleet(self):
+        self.copy_set("fleet/good")
+        (self.copy_set("fleet/broken") / "set.toml").write_text("format = 3\n")
+        run_program("diagnose", "fleet", "--only", self.FEW, "--json", "told.json", folder=self.folder, status=2)
+        with contextlib.chdir(self.folder):  # the report names the sets relative to it
+            fleet = rollrig.diagnose_fleet(rollrig.find_sets("fleet"), only=self.FEW)
+        self.assertEqual(fleet.json, (self.folder / "told.json").read_text())
+
+    def test_of_a_pair_of_machines(self):
+        other = self.copy_set("other")
+        for path in other.glob("*.csv"):  # as another machine would have measured it
+            with open(path, encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+            for row in rows:
+                if row["drum_torque_Nm"]:
+                    row["drum_torque_Nm"] = f"{1.001 * float(row['drum_torque_Nm']):.6f}"
+            with open(path, "w", encoding="utf-8", newline="") as file:
+                writer = csv.DictWriter(file, rows[0])
+                writer.writeheader()
+                writer.writerows(rows)
+        text = (other / "rig.toml").read_text()
+        (other / "rig.toml").write_text(re.sub(r'name = "[^"]*"', 'name = "other"', text, count=1))
+        told = run_program("diagnose", EXAMPLES / "hidden_effect", "--against", other, "--only", self.FEW, "--json",
+                           "-")
+        self.assertEqual(rollrig.diagnose_pair(EXAMPLES / "hidden_effect", other, only=self.FEW).json, told)
 
 
 class FurtherResults(InFolder):
@@ -125,6 +272,12 @@ class FurtherResults(InFolder):
         words = ["align", EXAMPLES / "alignment.csv", "--reference-machine", "drum_A", "--reference", 1.003, -0.05]
         self.check(rollrig.align(EXAMPLES / "alignment.csv", reference_machine="drum_A", reference=(1.003, -0.05)),
                    *words)
+
+    def test_an_aligned_value(self):
+        rollrig.align(EXAMPLES / "alignment.csv", reference_machine="drum_A").write(self.folder / "out")
+        alignment = self.folder / "out" / "alignment.json"
+        self.check(rollrig.apply_alignment(alignment, 8.1, measurements=3, on="2026-06-01"), "align", "--apply",
+                   alignment, "--rrc", 8.1, "--measurements", 3, "--on", "2026-06-01")
 
     def test_a_comparison(self):
         rollrig.run("iso_28580", **QUICK).write(self.folder / "a")

@@ -1,20 +1,25 @@
 """A run in Python gives what the command line writes, to the bit."""
 
+import copy
 import csv
 import io
 import json
 import math
+import multiprocessing
+import os
+import pathlib
 import pickle
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
 
 import numpy as np
 import rollrig
-from support import InFolder, run_program
+from support import EXAMPLES, InFolder, run_program
 
 QUICK = {"fidelity": "quasi_static", "soak_h": 1, "warm_up_min": 2}
 
@@ -77,6 +82,109 @@ class Results(InFolder):
         self.assertIn("&lt;html", result._repr_html_())
 
 
+class Copies(unittest.TestCase):
+    def check(self, copied, result):
+        self.assertEqual((copied.json, copied.text, copied.files()), (result.json, result.text, result.files()))
+        self.assertEqual((copied.page(), copied.test_report()), (result.page(), result.test_report()))
+
+    def test_of_results_are_pickles_too(self):
+        result = rollrig.run("iso_28580", tire="a50", **QUICK)
+        for copied in (pickle.loads(pickle.dumps(result)), copy.copy(result), copy.deepcopy(result),
+                       pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(result))))):
+            self.check(copied, result)
+            self.assertEqual(dict(copied), dict(result))
+            self.assertEqual(copied["rrc_N_per_kN"].unit, "N/kN")
+            self.assertEqual((copied.records, copied.warnings, copied.phases),
+                             (result.records, result.warnings, result.phases))
+            self.assertEqual(copied.mechanical_closure, result.mechanical_closure)
+            np.testing.assert_array_equal(copied.channels["drum_torque_Nm"], result.channels["drum_torque_Nm"])
+            self.assertEqual(copied.channels["drum_torque_Nm"].unit, "N m")
+        with tempfile.TemporaryDirectory() as folder:
+            copied.write(os.path.join(folder, "out"))
+            self.assertEqual(sorted(os.listdir(os.path.join(folder, "out"))), sorted(result.files()))
+            with self.assertRaises(rollrig.InputError):
+                copied.write(os.path.join(folder, "out"))  # it is there
+        changed = copy.deepcopy(result)
+        changed.data["scenario"] = "another"
+        self.assertEqual(result.data["scenario"], "iso_28580")
+
+    def test_of_a_sweep_come_back_from_another_process(self):
+        sweep = rollrig.sweep("iso_28580", vary={"pressure_kPa": [210, 250]}, tire="a50", **QUICK)
+        copied = pickle.loads(pickle.dumps(sweep))
+        self.check(copied, sweep)
+        self.assertEqual((copied.axes, copied.failures), (sweep.axes, sweep.failures))
+        self.assertEqual(list(copied["rrc_N_per_kN"]), list(sweep["rrc_N_per_kN"]))
+        with multiprocessing.get_context("spawn").Pool(1) as pool:
+            run = pool.apply(rollrig.run, ("iso_28580",), {"tire": "a50", **QUICK})
+        self.assertGreater(run["rrc_N_per_kN"], 0)
+
+    def test_of_channels_have_name_and_unit_and_only_a_copy_can_be_changed(self):
+        result = rollrig.run("iso_28580", tire="a50", **QUICK)
+        torque = result.channels["drum_torque_Nm"]
+        for array in (torque, torque[1:3], result.time_s, result.phase, pickle.loads(pickle.dumps(torque)),
+                      pickle.loads(pickle.dumps(result)).channels["drum_torque_Nm"]):
+            with self.assertRaisesRegex(ValueError, "read-only"):
+                array[0] = 0
+        own = torque.copy()
+        own[0] = 7.0
+        self.assertEqual((copy.deepcopy(torque).unit, copy.deepcopy(torque).name), ("N m", "drum_torque_Nm"))
+        frame = result.to_pandas()
+        frame.loc[frame.index[0], "drum_torque_Nm"] = 7.0
+        self.assertNotEqual(torque[0], 7.0)
+
+
+class Arguments(InFolder):
+    def test_of_a_wrong_type_are_named(self):
+        road = EXAMPLES / "coastdowns.csv"
+        for name, call in {
+                "scenario": lambda: rollrig.run(5),
+                "mass_kg": lambda: rollrig.fit_road_load(road, mass_kg="1500"),
+                "file": lambda: rollrig.fit_road_load(None, mass_kg=1500),
+                "yaw_degree": lambda: rollrig.evaluate_road_load(road, "j1263", mass_kg=1500, yaw_degree=1.5),
+                "bounds": lambda: rollrig.fit_road_load(road, mass_kg=1500, bounds=(1, 2)),
+                "target": lambda: rollrig.fit_road_load(road, mass_kg=1500, target=[1, 2]),
+                "leave_out": lambda: rollrig.fit_road_load(road, mass_kg=1500, leave_out=[1]),
+                "skip_bad_rows": lambda: rollrig.fit_road_load(road, mass_kg=1500, skip_bad_rows="no"),
+                "monte_carlo": lambda: rollrig.run("iso_28580", tire="a50", monte_carlo="many"),
+                "uncertainty": lambda: rollrig.run("iso_28580", tire="a50", uncertainty="no"),
+                "threads": lambda: rollrig.sweep("iso_28580", tire="a50", vary={"pressure_kPa": [1]}, threads=1.5),
+                "vary": lambda: rollrig.sweep("iso_28580", tire="a50", vary=[210]),
+                "vary: pressure_kPa": lambda: rollrig.sweep("iso_28580", tire="a50", vary={"pressure_kPa": 210}),
+                "progress": lambda: rollrig.run("iso_28580", tire="a50", progress="yes"),
+                "compared": lambda: rollrig.compare("one"),
+                "folders": lambda: rollrig.diagnose_fleet("one"),
+                "folder": lambda: rollrig.MeasurementSet(3),
+                "rrc_N_per_kN": lambda: rollrig.label(rrc_N_per_kN=[8.4]),
+                "tire": lambda: rollrig.label(tire=3),
+                "columns": lambda: rollrig.new_set("logs", columns=["a"]),
+                "values": lambda: rollrig.new_set("logs", values={"ambient_degC": "warm"}),
+        }.items():
+            with self.subTest(name), self.assertRaisesRegex(TypeError, f"argument '{name}'"):
+                call()
+
+    def test_are_paths_that_are_no_utf_8(self):
+        path = os.path.join(os.fsencode(self.folder), b"coast\xe9.csv")
+        with open(path, "wb") as file:
+            file.write((EXAMPLES / "coastdowns.csv").read_bytes())
+        for given in (path, os.fsdecode(path), pathlib.Path(os.fsdecode(path))):
+            with self.assertRaisesRegex(rollrig.InputError, "not UTF-8") as caught:
+                rollrig.fit_road_load(given, mass_kg=1500)
+            self.assertEqual(caught.exception.file, os.fsdecode(path))
+            with self.assertRaisesRegex(rollrig.InputError, "not UTF-8"):
+                rollrig.run("iso_28580", tire=given)
+        report = rollrig.fit_road_load(os.fsencode(EXAMPLES / "coastdowns.csv"), mass_kg=1500)
+        folder = os.path.join(os.fsencode(self.folder), b"out\xe9")
+        report.write(folder)
+        self.assertTrue(os.path.exists(os.path.join(folder, b"road_load.json")))
+
+    def test_are_no_half_characters_and_no_zeros(self):
+        for bad in ("a\ud800", "a\0b"):
+            for call in (lambda: rollrig.MeasurementSet(bad), lambda: rollrig.run("iso_28580", tire=bad),
+                         lambda: rollrig.run(bad), lambda: rollrig.run("iso_28580", tire="a50", method=bad)):
+                with self.assertRaises(rollrig.InputError):
+                    call()
+
+
 class Settings(InFolder):
     def test_take_lists_mappings_numbers_of_numpy_and_paths(self):
         asset = rollrig.Run("speed_sweep", tire="a50", fidelity="quasi_static", speeds_km_h=np.array([80, 120]),
@@ -132,15 +240,15 @@ class Calls(unittest.TestCase):
             rollrig.run("iso_28580", tire="a50", measurement_cycles=100, progress=refuse)
         self.assertGreater(rollrig.run("iso_28580", tire="a50", **QUICK)["rrc_N_per_kN"], 0)
 
-    def test_stop_in_all_threads_when_the_progress_of_one_raises(self):
-        started, raised = threading.Event(), []
+    def test_go_on_when_the_progress_of_another_thread_raises(self):
+        started, stopped, results = threading.Event(), threading.Event(), []
 
         def simulate():
-            try:
-                rollrig.run("iso_28580", tire="a50", measurement_cycles=100, measurement_min=600,
-                            progress=lambda done, stage: started.set())
-            except KeyboardInterrupt as error:
-                raised.append(error)
+            def tell(done, stage):
+                started.set()
+                stopped.wait(60)  # the run is not over before the other one has been stopped
+
+            results.append(rollrig.run("iso_28580", tire="a50", measurement_cycles=20, progress=tell))
 
         def refuse(done, stage):
             if started.is_set():
@@ -148,10 +256,25 @@ class Calls(unittest.TestCase):
 
         thread = threading.Thread(target=simulate)
         thread.start()
+        asked_s = time.monotonic()
         with self.assertRaisesRegex(LookupError, "enough"):
-            rollrig.run("iso_28580", tire="a50", measurement_cycles=100, measurement_min=600, progress=refuse)
+            rollrig.sweep("iso_28580", tire="a50", vary={"pressure_kPa": range(210, 242)}, measurement_cycles=100,
+                          measurement_min=600, threads=2, progress=refuse)
+        self.assertLess(time.monotonic() - asked_s, 20)  # threads of the call have stopped too: it takes minutes
+        stopped.set()
         thread.join()
-        self.assertEqual(len(raised), 1)
+        self.assertEqual(len(results), 1)
+
+    def test_of_a_daemon_thread_end_with_the_interpreter(self):
+        program = ("import threading, time, rollrig\n"
+                   "begun = threading.Event()\n"
+                   "def simulate():\n"
+                   "  rollrig.run('iso_28580', tire='a50', measurement_cycles=100, measurement_min=600,\n"
+                   "              progress=lambda done, stage: begun.set())\n"
+                   "threading.Thread(target=simulate, daemon=True).start()\n"
+                   "begun.wait()\n")
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_stop_at_ctrl_c(self):
         program = ("import rollrig\ntry:\n  print('begun', flush=True)\n"

@@ -11,12 +11,20 @@ SOURCE = pathlib.Path(os.environ["ROLLRIG_SOURCE"])
 EXAMPLES = SOURCE / "assets" / "examples"
 
 
-def run_program(*words, folder=None):
-    """What the command line prints; the test fails where it fails."""
+def run_program(*words, folder=None, status=0):
+    """What the command line prints; the test fails where it ends with another status."""
     done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, cwd=folder, check=False)
-    if done.returncode != 0:
+    if done.returncode != status:
         raise AssertionError(f"rollrig {' '.join(map(str, words))}: {done.stderr}")
     return done.stdout
+
+
+def run_failing_program(*words):
+    """What the command line says of a wrong input."""
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False)
+    if done.returncode != 2:
+        raise AssertionError(f"rollrig {' '.join(map(str, words))}: status {done.returncode}")
+    return done.stderr
 
 
 class InFolder(unittest.TestCase):
