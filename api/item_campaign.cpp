@@ -125,6 +125,7 @@ CampaignState ItemCampaign::merge() const {
   const std::vector<std::string> files = data_->list_filled_files();
   const std::string merged = (fs::path(data_->folder.path) / "results.sqlite").string();
   if (files == std::vector<std::string>{merged}) return read_state();
+  campaigns::read_state(data_->folder, data_->items->count());  // throws where a file has items that are none of these
   // What an earlier merge that was cut short has left there are records of this campaign, too.
   const std::string partial = merged + ".partial";
   std::vector<bool> is_merged(data_->items->count());

@@ -27,10 +27,9 @@ std::unique_ptr<CampaignItems> OpenCampaign::make_watched_items() const {
   require_same_version(definition, path_of_definition());
   std::unique_ptr<CampaignItems> watched = make_items(definition);
   watched->watch_files(definition.files);
-  const fs::path assets = find_assets_folder();
-  const auto is_asset = [&assets](const CampaignFile& file) {
-    const fs::path inside = fs::path(file.path).lexically_relative(assets);
-    return !inside.empty() && *inside.begin() != "..";
+  const fs::path assets = fs::path(find_assets_folder()).lexically_normal();
+  const auto is_asset = [&assets](const CampaignFile& file) {  // <assets>/<kind>/<name>
+    return fs::path(file.path).parent_path().parent_path() == assets;
   };
   watched->check_briefly(std::all_of(definition.files.begin(), definition.files.end(), is_asset));
   return watched;

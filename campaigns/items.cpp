@@ -157,8 +157,8 @@ std::uint64_t calc_item_seed(std::uint64_t campaign_seed, std::size_t item) {
   return std::strtoull(hash.substr(0, 8).c_str(), nullptr, 16) >> 1U;
 }
 
-/// Writes once a second how many items the file has, and removes that file at the end. Of a file that begins empty
-/// there is nothing to say in the first second.
+/// Writes the number of items of the results file into the progress file, at most once a second, and removes the
+/// progress file at the end. Where the results file has no items yet, the first write is after a second.
 class ResultsFile::Progress {
  public:
   Progress(std::string path, const Tally& at_start)

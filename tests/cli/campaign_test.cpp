@@ -299,7 +299,8 @@ TEST_CASE("each process of a launcher carries out its share", "[fast]") {
 TEST_CASE("a campaign reads the files that it was begun with, and no others", "[fast]") {
   const TemporaryFolder at;
   run_to_end(std::string("campaign new c ") + kRun + " --vary ambient_degC=20,25", at);
-  for (const char* assets : {"ROLLRIG_ASSETS=/nonexistent", "ROLLRIG_ASSETS="}) {
+  for (const char* assets :
+       {"ROLLRIG_ASSETS=/nonexistent", "ROLLRIG_ASSETS=", "ROLLRIG_ASSETS=" ROLLRIG_SOURCE_DIR, "ROLLRIG_ASSETS=/"}) {
     const ProgramResult result = run_program("campaign run c --shard 1/2", at.path(), assets);
     INFO(result.err);
     CHECK(result.status != 3);  // nothing may be kept as a failed item
