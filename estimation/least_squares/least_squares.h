@@ -10,11 +10,11 @@ namespace rollrig::estimation {
 
 /// Least sum of squares of residuals over unknowns.
 ///
-/// Symbols  evaluate  puts the residuals at some unknowns, and their derivatives, a row for each residual, where
-///                    `jacobian` is not null. False where there are none: the step that tried these unknowns is then
-///                    shortened. What it throws ends the search.
+/// Symbols  evaluate  computes the residuals r_i(u) and, where `jacobian` is not null, dr_i/du_j row by row. Returns
+///                    false where they cannot be computed: the step is then shortened. An exception ends the search.
 ///          lower, upper  bounds of the first unknowns; infinite where there is none
-///          follow        told of each step; may be empty
+///          follow        called after each iteration, from 0 in each search, with sum r_i^2 / 2 and the largest
+///                        absolute component of its gradient; may be empty
 struct LeastSquaresProblem {
   std::size_t residuals = 0;
   std::function<bool(const double* unknowns, double* residuals, double* jacobian)> evaluate;
@@ -23,11 +23,12 @@ struct LeastSquaresProblem {
   std::function<void(int iteration, double half_sum, double largest_gradient)> follow;
 };
 
-/// How each step is found, and when the search ends. Tolerances are Ceres' own, relative; so are their defaults.
+/// How each step is found, and when the search ends. The tolerances and their defaults are those of Ceres:
+/// function_tolerance and parameter_tolerance are relative, gradient_tolerance is absolute.
 struct LeastSquaresOptions {
   enum class Factorization { kQr, kNormalCholesky };
   Factorization factorization = Factorization::kQr;
-  int most_iterations = 50;
+  int most_iterations = 50;    // of each search
   int most_invalid_steps = 5;  // one after the other, each shorter than the one before
   double function_tolerance = 1e-6;
   double gradient_tolerance = 1e-10;
@@ -43,8 +44,9 @@ struct LeastSquaresResult {
 
 /// The unknowns at the least sum of squares, by Levenberg and Marquardt from `unknowns`, which are moved there.
 /// Equation  minimum of sum r_i(u)^2 / 2 with lower <= u <= upper
-/// Validity  a local minimum; an unknown that reaches its bound stays there, and the others are the best beside it. May
-///           be called from several threads
+/// Validity  a local minimum within the bounds. A search of Ceres may get stuck where an unknown reaches its bound: the
+///           unknown is then held, and the others are searched again, until no bound holds one that should leave it.
+///           May be called from several threads
 /// Errors    RunFailure: the library cannot be loaded; what `evaluate` throws
 /// Source    Ceres Solver 2.1: Trust Region Methods
 /// Checked   tests/estimation/least_squares_test.cpp

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace rollrig::estimation {
@@ -93,6 +94,31 @@ std::vector<int> find_on_bounds(const LeastSquaresProblem& problem, const std::v
   return places;
 }
 
+/// Of the unknowns on bounds, those whose bound holds them: the sum would fall beyond it, not within.
+std::vector<int> find_held(const LeastSquaresProblem& problem, const std::vector<double>& unknowns, double half_sum,
+                           double tolerance) {
+  const std::vector<int> on_bounds = find_on_bounds(problem, unknowns);
+  if (on_bounds.empty()) return {};
+  std::vector<double> residuals(problem.residuals);
+  std::vector<double> jacobian(problem.residuals * unknowns.size());
+  if (!problem.evaluate(unknowns.data(), residuals.data(), jacobian.data())) return on_bounds;
+  std::vector<int> held;
+  for (const int at : on_bounds) {
+    const auto i = static_cast<std::size_t>(at);
+    double gradient = 0.0;
+    double curvature = 0.0;
+    for (std::size_t row = 0; row < residuals.size(); ++row) {
+      const double slope = jacobian[row * unknowns.size() + i];
+      gradient += slope * residuals[row];
+      curvature += slope * slope;
+    }
+    const bool falls_within = unknowns[i] <= problem.lower[i] ? gradient < 0.0 : gradient > 0.0;
+    const bool is_worth_it = gradient * gradient > 2.0 * tolerance * half_sum * curvature;  // what it alone can gain
+    if (!(falls_within && is_worth_it)) held.push_back(at);
+  }
+  return held;
+}
+
 class CeresLibrary : public LeastSquaresLibrary {
  public:
   LeastSquaresResult minimize(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
@@ -101,10 +127,10 @@ class CeresLibrary : public LeastSquaresLibrary {
     std::vector<int> held;
     LeastSquaresResult result = search(problem, options, held, unknowns);
     // Ceres projects its steps onto the bounds, and so gets stuck before the others are at their best.
-    for (std::vector<int> on_bounds = find_on_bounds(problem, unknowns);
-         result.has_converged && on_bounds.size() > held.size() && on_bounds.size() < unknowns.size();
-         on_bounds = find_on_bounds(problem, unknowns)) {
-      held = on_bounds;
+    for (std::size_t round = 0; result.has_converged && round < 4 * unknowns.size(); ++round) {
+      std::vector<int> next = find_held(problem, unknowns, result.half_sum, options.function_tolerance);
+      if (next == held || next.size() == unknowns.size()) break;
+      held = std::move(next);
       result = search(problem, options, held, unknowns);
     }
     return result;

@@ -14,7 +14,7 @@ class LeastSquaresLibrary {
                                       std::vector<double>& unknowns) const = 0;
 };
 
-/// The only function that the library shows, by this name.
+/// The only function that the library exports.
 using LeastSquaresEntry = const LeastSquaresLibrary* (*)();
 constexpr const char* kLeastSquaresEntry = "rollrig_least_squares_library";
 

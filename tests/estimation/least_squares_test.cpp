@@ -1,10 +1,13 @@
 // Nonlinear least squares within bounds.
 #include "estimation/least_squares/least_squares.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -79,6 +82,62 @@ TEST_CASE("an unknown stays within its bounds, and the other is the best beside 
   CHECK(unknowns[0] == 1.0);
   CHECK(unknowns[1] == Approx(4.0 / 3.0).epsilon(1e-6));
   CHECK(result.half_sum == Approx(0.5).epsilon(1e-9));
+}
+
+TEST_CASE("the least squares of lines within bounds are those of the best choice of bounds", "[fast]") {
+  // r = M u - d with columns that are nearly alike: the best is found by trying every choice of unknowns that are held
+  // on either bound, where the others are within theirs.
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  constexpr double kBound = 0.3;
+  for (int trial = 0; trial < 200; ++trial) {
+    Eigen::MatrixXd m(6, 3);
+    Eigen::VectorXd d(6);
+    for (int row = 0; row < 6; ++row) {
+      const double common = normal(random);
+      for (int column = 0; column < 3; ++column) m(row, column) = common + 0.3 * normal(random);
+      d(row) = normal(random);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (int choice = 0; choice < 27; ++choice) {  // a digit of 3 for each unknown: free, lower, upper
+      const std::array<int, 3> digits{choice % 3, choice / 3 % 3, choice / 9};
+      Eigen::VectorXd rest = d;
+      std::vector<int> free;
+      Eigen::VectorXd u = Eigen::VectorXd::Zero(3);
+      for (int i = 0; i < 3; ++i) {
+        if (digits[static_cast<std::size_t>(i)] == 0) free.push_back(i);
+        if (digits[static_cast<std::size_t>(i)] > 0) u(i) = digits[static_cast<std::size_t>(i)] == 1 ? -kBound : kBound;
+      }
+      rest -= m * u;
+      if (!free.empty()) {
+        Eigen::MatrixXd of_free(6, static_cast<Eigen::Index>(free.size()));
+        for (std::size_t i = 0; i < free.size(); ++i) of_free.col(static_cast<Eigen::Index>(i)) = m.col(free[i]);
+        const Eigen::VectorXd found = of_free.colPivHouseholderQr().solve(rest);
+        for (std::size_t i = 0; i < free.size(); ++i) u(free[i]) = found(static_cast<Eigen::Index>(i));
+      }
+      if (u.cwiseAbs().maxCoeff() <= kBound) least = std::min(least, 0.5 * (m * u - d).squaredNorm());
+    }
+    LeastSquaresProblem problem;
+    problem.residuals = 6;
+    problem.evaluate = [&](const double* u, double* residuals, double* jacobian) {
+      Eigen::Map<Eigen::VectorXd> to_residuals(residuals, 6);
+      to_residuals = m * Eigen::Map<const Eigen::VectorXd>(u, 3) - d;
+      if (jacobian == nullptr) return true;
+      Eigen::Map<Eigen::Matrix<double, 6, 3, Eigen::RowMajor>> to_jacobian(jacobian);
+      to_jacobian = m;
+      return true;
+    };
+    problem.lower.assign(3, -kBound);
+    problem.upper.assign(3, kBound);
+    std::vector<double> unknowns(3, 0.1);
+    LeastSquaresOptions options;
+    options.most_iterations = 300;
+    options.function_tolerance = 1e-10;
+    const LeastSquaresResult result = minimize_squares(problem, options, unknowns);
+    INFO("trial " << trial);
+    CHECK(result.has_converged);
+    CHECK(result.half_sum == Approx(least).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("a step to where there are no residuals is shortened", "[fast]") {
