@@ -1,5 +1,7 @@
 #include "api/add_uncertainty.h"
 
+#include <fmt/format.h>
+
 #include "api/option_range.h"
 #include "estimation/uncertainty/uncertainty.h"
 #include "report/blocks.h"
@@ -21,6 +23,37 @@ std::vector<Table> add_uncertainty(const estimation::MeasurementModel& model, co
       estimation::calc_uncertainty(model, {options.monte_carlo_trials, options.seed, options.threads}, progress);
   json["uncertainty"] = estimation::make_uncertainty_json(uncertainty);
   return estimation::make_uncertainty_tables(uncertainty);
+}
+
+namespace {
+
+/// The number as many decimals as a text shows: "5.207" or "5.207 +- 0.037".
+std::string show_like(const std::string& text, double value) {
+  const std::string first = text.substr(0, text.find(' '));
+  const std::size_t point = first.find('.');
+  return fmt::format("{:.{}f}", value, point == std::string::npos ? 0 : first.size() - point - 1);
+}
+
+}  // namespace
+
+void put_budgets_on_tiles(const Json& uncertainty, report::Page& page) {
+  const Json& budgets = uncertainty.at("budgets");
+  for (report::Block& block : page.sections.front().blocks) {
+    if (block.at("type") != "tiles") continue;
+    for (Json& tile : block.at("tiles")) {
+      if (!tile.contains("from")) continue;
+      for (std::size_t i = 0; i < budgets.size(); ++i) {
+        const std::string pointer = tile.at("from").front().get<std::string>();
+        if (pointer != "/result/" + budgets[i].at("key").get<std::string>()) continue;
+        const std::string shown = tile.at("value").get<std::string>();
+        tile["value"] = shown.substr(0, shown.find(' ')) + " +- " +
+                        show_like(shown, budgets[i].at("expanded_uncertainty").get<double>());
+        tile["note"] = fmt::format("+- is the expanded uncertainty (k = {:.2f}) of the whole budget, below",
+                                   budgets[i].at("coverage_factor").get<double>());
+        tile["from"] = {pointer, fmt::format("/uncertainty/budgets/{}/expanded_uncertainty", i)};
+      }
+    }
+  }
 }
 
 std::string make_page_with_uncertainty(report::Page page, const std::vector<Table>& uncertainty) {

@@ -21,7 +21,11 @@ bool wants_uncertainty(const UncertaintyOptions& options, bool is_possible = tru
 
 /// Adds `uncertainty` to the JSON of a result, and returns its tables. Throws RunFailure, Interrupted.
 std::vector<Table> add_uncertainty(const estimation::MeasurementModel& model, const UncertaintyOptions& options,
-                            const Progress& progress, Json& json);
+                                   const Progress& progress, Json& json);
+
+/// Gives the tiles of results that have a budget its expanded uncertainty, in place of a part of it. `uncertainty` is
+/// that of the JSON.
+void put_budgets_on_tiles(const Json& uncertainty, report::Page& page);
 
 /// The page of a result with the tables of its uncertainty, where there are some, behind the result.
 std::string make_page_with_uncertainty(report::Page page, const std::vector<Table>& uncertainty);

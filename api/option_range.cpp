@@ -19,10 +19,10 @@ void require_within(const OptionRange& range, double value) {
 }
 
 void require_threads(int threads) {
-  constexpr int kMost = 1024;  // Assumed: no machine has more
+  constexpr int kMost = 1024;  // Assumed: more than any call can use
   if (threads >= 0 && threads <= kMost) return;
   throw InputError({"--threads is out of range", "command line", 0, "--threads", fmt::format("{}", threads),
-                    fmt::format("1 to {}", kMost), ""});
+                    fmt::format("0 (as many as the machine has) to {}", kMost), ""});
 }
 
 }  // namespace rollrig

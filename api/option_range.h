@@ -14,7 +14,7 @@ struct OptionRange {
 };
 
 /// Throws InputError for a number that is not within the limits, NaN included. `value` is in the unit of the option. A
-/// relative excess of 1e-12 passes, which comes from the conversion of units.
+/// number may exceed a limit by 1e-12 of the larger limit, for the rounding of converted units.
 void require_within(const OptionRange& range, double value);
 
 /// Throws InputError for a number of threads below 0 or above 1024. 0: as many as the machine has.

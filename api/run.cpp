@@ -162,8 +162,10 @@ RunResult Run::carry_out(const Progress& progress, const UncertaintyOptions& unc
                        {"recording.csv", scenarios::make_recording_csv(outcome->recording)},
                        {"manifest.json", to_text(scenarios::make_manifest(data->spec, *outcome))}};
   };
-  result.make_page = [data = data_, outcome, budgets] {
-    return make_page_with_uncertainty(report::make_run_page(data->spec, *outcome), budgets);
+  result.make_page = [data = data_, outcome, budgets, of_json = json.value("uncertainty", Json())] {
+    report::Page page = report::make_run_page(data->spec, *outcome);
+    if (!budgets.empty()) put_budgets_on_tiles(of_json, page);
+    return make_page_with_uncertainty(std::move(page), budgets);
   };
   if (has_test_report()) {
     result.make_test_report = [data = data_, outcome, json = std::move(json)] {

@@ -200,16 +200,37 @@ void add_waterfalls(const std::vector<ResultFolder>& folders, Comparison& compar
   }
 }
 
-/// The result that matters most: an RRc, else one with an interval, else the one that differs most by its size.
-void choose_main_result(Compared& compared) {
+/// Whether a result is that of a headline, such as "economy.combined.range_km" of "economy.last.range_km".
+bool is_headline(const std::string& result, const std::string& headline) {
+  const std::size_t place = headline.find(".last.");
+  if (place == std::string::npos) return result == headline;
+  const std::string list = headline.substr(0, place + 1);
+  const std::string member = headline.substr(place + 5);
+  return result.size() > list.size() + member.size() && result.compare(0, list.size(), list) == 0 &&
+         result.compare(result.size() - member.size(), member.size(), member) == 0;
+}
+
+/// The result that matters most: an RRc, else the first headline of the scenario, else one with an interval, else the
+/// one that differs most by its size.
+void choose_main_result(const scenarios::Scenario* scenario, Compared& compared) {
   const std::vector<ComparedValue>& values = compared.comparison.values;
+  const auto differs = [](const ComparedValue& value) { return value.differences.front().value.has_value(); };
+  const bool has_main =
+      std::any_of(values.begin(), values.end(), [](const ComparedValue& value) { return value.name == kMainResult; });
+  if (scenario != nullptr && !has_main) {
+    for (const auto& headline : scenario->headlines) {
+      for (std::size_t i = values.size(); i-- > 0;) {  // the last record of a list
+        if (is_headline(values[i].name, headline.first) && differs(values[i])) return choose_main(i, compared);
+      }
+    }
+  }
   const auto weigh = [](const ComparedValue& value) {
     const Difference& first = value.differences.front();
     return std::make_tuple(value.name == kMainResult, first.sd.has_value(), std::abs(first.percent.value_or(0.0)));
   };
   std::optional<std::size_t> chosen;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!values[i].differences.front().value.has_value() || values[i].unit == "s") continue;
+    if (!differs(values[i]) || values[i].unit == "s") continue;
     if (!chosen.has_value() || weigh(values[i]) > weigh(values[*chosen])) chosen = i;
   }
   if (chosen.has_value()) choose_main(*chosen, compared);
@@ -235,7 +256,7 @@ Compared compare_folders(const std::vector<ResultFolder>& folders, const std::ve
   add_intervals(folders, comparison);
   describe_shared(folders, comparison);
   add_waterfalls(folders, comparison);
-  choose_main_result(compared);
+  choose_main_result(scenario, compared);
   std::vector<OverlaidRun> runs;
   for (const ResultFolder& folder : folders) runs.push_back(read_overlaid(folder));
   compared.overlays.push_back(overlay_runs(runs, names, "", comparison.warnings));

@@ -19,14 +19,14 @@ Json rounded(double value) {
   return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
 }
 
-Json make_series(const std::string& name, const std::vector<double>& time_s, const std::vector<double>& values) {
+Json make_series(const std::string& name, const std::vector<double>& time_s, const std::vector<double>& values,
+                 std::size_t most) {
   double size = 0.0;
   for (const double value : values) size = std::isfinite(value) ? std::max(size, std::abs(value)) : size;
-  constexpr double kShown = 1e-6;      // of the largest value: less than the six digits that are written
-  constexpr std::size_t kMost = 2000;  // more than a chart has pixels
+  constexpr double kShown = 1e-6;  // of the largest value: less than the six digits that are written
   Json t = Json::array();
   Json y = Json::array();
-  for (const std::size_t row : thin(time_s, values, kMost, kShown * size)) {
+  for (const std::size_t row : thin(time_s, values, most, kShown * size)) {
     t.push_back(std::round(1e3 * time_s[row]) / 1e3);
     y.push_back(rounded(values[row]));
   }

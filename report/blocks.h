@@ -16,7 +16,8 @@ namespace rollrig::report {
 Json rounded(double value);
 
 /// A channel over time, thinned: {name, t, y}.
-Json make_series(const std::string& name, const std::vector<double>& time_s, const std::vector<double>& values);
+Json make_series(const std::string& name, const std::vector<double>& time_s, const std::vector<double>& values,
+                 std::size_t most = 2000);
 
 /// Indices of the rows of a series that are kept, in order; at most `most` of them (at least 8), none of its extremes
 /// lost.

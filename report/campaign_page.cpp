@@ -5,6 +5,7 @@
 #include "report/blocks.h"
 #include "report/diagnosis_page.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 
 namespace rollrig::report {
 namespace {
@@ -48,6 +49,28 @@ Section make_hand_work(const PlannedCampaign& campaign) {
   return section;
 }
 
+/// The tables of the terminal, with names in place of words that files and options have.
+Table make_named_effects(const PlannedCampaign& campaign) {
+  Table table = diagnosis::make_visibility_table(campaign);
+  for (std::size_t i = 0; i < campaign.effects.size(); ++i) {
+    const EffectVisibility& one = campaign.effects[i];
+    table.rows[i].front() = name_effect(one.effect) + (one.is_visible ? "" : " (not visible)");
+  }
+  return table;
+}
+
+Table make_named_tests(const PlannedCampaign& campaign) {
+  Table table = diagnosis::make_test_table(campaign);
+  for (std::size_t i = 0; i < campaign.ledger.size(); ++i) {
+    const CampaignTest& test = campaign.ledger[i];
+    std::string shown;
+    for (const std::string& effect : test.shows) shown += (shown.empty() ? "" : ", ") + name_effect(effect);
+    table.rows[i][2] = fmt::format("{}: {}", plain_name(test.id), test.test);
+    table.rows[i].back() = shown.empty() ? "-" : shown;
+  }
+  return table;
+}
+
 }  // namespace
 
 Page make_campaign_page(const PlannedCampaign& campaign) {
@@ -77,9 +100,9 @@ Page make_campaign_page(const PlannedCampaign& campaign) {
       "A visible effect changes the measurement by 5 standard deviations more than the uncertain numbers of the files "
       "can imitate. Which effect it is, the diagnosis of the tests says."));
   what.blocks.push_back(make_shares(campaign));
-  what.blocks.push_back(make_table(diagnosis::make_visibility_table(campaign)));
+  what.blocks.push_back(make_table(make_named_effects(campaign)));
   page.add(std::move(what));
-  page.add({"Tests", "", {make_course(campaign), make_table(diagnosis::make_test_table(campaign))}});
+  page.add({"Tests", "", {make_course(campaign), make_table(make_named_tests(campaign))}});
   page.add(make_hand_work(campaign));
   if (!campaign.left_out.empty()) {
     page.add({"Left out",

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "diagnosis/output/diagnosis_json.h"
 #include "diagnosis/output/summary.h"
 #include "report/blocks.h"
 #include "report/diagnosis_page.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 
 namespace rollrig::report {
 namespace {
@@ -89,9 +92,32 @@ Section make_member(const FleetMember& member) {
 
 }  // namespace
 
+/// The table of the terminal, with names in place of words that files and options have.
+Table make_named_table(const Fleet& fleet) {
+  Table table = diagnosis::make_fleet_table(fleet);
+  const auto column_of = [&table](const char* heading) {
+    return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), heading) -
+                                    table.columns.begin());
+  };
+  const std::size_t verdict = column_of("verdict");
+  const std::size_t cause = column_of("cause");
+  for (std::size_t i = 0; i < fleet.members.size(); ++i) {
+    const std::optional<Findings>& findings = fleet.members[i].findings;
+    if (!findings.has_value()) continue;
+    std::vector<std::string>& row = table.rows[i];
+    row[verdict] = plain_name(row[verdict]);
+    if (row[cause].empty()) continue;
+    row[cause].clear();
+    for (const std::string& id : findings->causes.front().effects) {
+      row[cause] += (row[cause].empty() ? "" : " + ") + name_effect(id);
+    }
+  }
+  return table;
+}
+
 Page make_fleet_page(const Fleet& fleet) {
   Page page{"diagnose", "Diagnosis of " + format_count(fleet.members.size(), "set"), ""};
-  page.add({"Sets", "", {make_fleet_tiles(fleet), make_table(diagnosis::make_fleet_table(fleet)), make_gaps(fleet)}});
+  page.add({"Sets", "", {make_fleet_tiles(fleet), make_table(make_named_table(fleet)), make_gaps(fleet)}});
   Section back{"What comes back"};
   back.blocks.push_back(fleet.recurrences.empty()
                             ? make_paragraph("No effect acts with more than 80 % in all sets of a machine or a tire.")

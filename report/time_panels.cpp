@@ -229,6 +229,8 @@ PageClock find_view(const sim::Recording<double>& recording) {
 }
 
 Block make_times(const sim::Recording<double>& recording) {
+  constexpr std::size_t kPage = 45000;  // points: a page of two hours with four wheels stays below 2 MB
+  const std::size_t most_points = std::clamp<std::size_t>(kPage / recording.channels.size(), 400, 2000);
   std::vector<Panel> panels;
   const std::vector<std::string> positions = list_positions(recording);
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
@@ -238,7 +240,7 @@ Block make_times(const sim::Recording<double>& recording) {
     Panel& panel = find_panel(panels, *place, shown_unit(channel));
     const std::vector<double> values = in_unit_of(channel, recording.values[i]);
     const DrawnRows rows = hold_to_jumps(recording, values);
-    Json series = make_series(place->series, rows.time_s, rows.values);
+    Json series = make_series(place->series, rows.time_s, rows.values, most_points);
     series["phases"] = summarize_phases(recording, values);
     if (place->is_read) series["recorded"] = make_recorded(recording.time_s, values);
     panel.series.push_back(std::move(series));

@@ -17,6 +17,7 @@ import { Clock } from './clock.js';
 import { h } from './dom.js';
 import { animationBlock } from './animation/animation.js';
 import { crossSectionBlock } from './animation/section.js';
+import { fitTables, restoreTables } from './paper_tables.js';
 import { makeThemeButton, setOnPaper, startTheme } from './theme.js';
 import { timeBarBlock } from './timebar.js';
 
@@ -52,14 +53,6 @@ function makeContents(sections) {
   return h('nav', { 'aria-label': 'Contents' }, sections.map((s) => h('a', { href: `#${slug(s.title)}` }, s.title)));
 }
 
-/// Tables that are wider than the paper, made smaller: nothing of them is to be cut.
-function fitTables() {
-  document.querySelectorAll('.scroll > table').forEach((table) => {
-    const room = table.parentElement.clientWidth / table.scrollWidth;
-    if (room > 0 && room < 1) table.style.zoom = 0.98 * room;
-  });
-}
-
 function start() {
   const payload = JSON.parse(document.getElementById('payload').textContent);
   startTheme();
@@ -79,7 +72,7 @@ function start() {
     fitTables();
   });
   addEventListener('afterprint', () => {
-    document.querySelectorAll('.scroll > table').forEach((table) => (table.style.zoom = ''));
+    restoreTables();
     document.documentElement.classList.remove('paper');
     setOnPaper(false);
     drawAll();

@@ -27,7 +27,7 @@ function whiskers(series, k, count, lying) {
       const place = (value) => api.coord(lying ? [value, api.value(0)] : [api.value(0), value]);
       const along = lying ? 0 : 1;
       const band = api.size(lying ? [0, 1] : [1, 0])[1 - along];
-      const at = place(api.value(1))[1 - along] + (lying ? -1 : 1) * (k - (count - 1) / 2) * ((0.7 * band) / count);
+      const at = place(api.value(1))[1 - along] + (k - (count - 1) / 2) * ((0.7 * band) / count);
       const [low, high] = [api.value(1), api.value(2)].map((value) => place(value)[along]);
       const line = (a, b, c, d) => (lying ? [b, a, d, c] : [a, b, c, d]);
       const whisker = (stroke, lineWidth) => [line(at, low, at, high), line(at - 4, low, at + 4, low), line(at - 4, high, at + 4, high)]

@@ -48,9 +48,33 @@ function makeSeries(series, k) {
 
 const legendOf = (block, width) => makeLegend(block.series.map((s) => s.name), { width, itemWidth: block.series.every((s) => s.kind !== 'points') ? 26 : 14 });
 
+const nameOf = (q) => (q.unit ? `${q.label}, ${q.unit}` : q.label);
+
+/// The point of a series that is nearest to a place; null where none is near, in a chart of this range.
+function findNearest(series, at, range) {
+  const distance = (i) => Math.abs(series.x[i] - at);
+  let best = -1;
+  series.x.forEach((x, i) => { if (Number.isFinite(x) && series.y[i] !== null && (best < 0 || distance(i) < distance(best))) best = i; });
+  return best >= 0 && distance(best) <= 0.05 * range ? best : null;
+}
+
+/// Quantity, unit and the nearest point of every series; where it is elsewhere than the pointer, its place.
+function makeTip(block, at) {
+  const all = block.series.flatMap((s) => s.x);
+  const range = Math.max(...all) - Math.min(...all) || 1;
+  const line = (series) => {
+    const i = findNearest(series, at, range);
+    if (i === null) return null;
+    const interval = series.low && series.low[i] !== null ? ` (${number(series.low[i])} to ${number(series.high[i])})` : '';
+    const place = Math.abs(series.x[i] - at) > 0.002 * range ? ` at ${number(series.x[i])}` : '';
+    return tipLine(`${series.name}:`, number(series.y[i]) + interval + place);
+  };
+  return [h('div', null, h('b', null, nameOf(block.y))), tipLine(`${nameOf(block.x)}:`, number(at)), ...block.series.map(line)].filter(Boolean);
+}
+
 function makeOption(block, width) {
   const axis = axisStyle();
-  const name = (q) => (q.unit ? `${q.label}, ${q.unit}` : q.label);
+  const name = nameOf;
   const lines = [
     ...(block.marks || []).map((mark) => ({ yAxis: mark })),
     ...(block.diagonal ? [[{ coord: [0, 0] }, { coord: [block.diagonal, block.diagonal] }]] : []),
@@ -60,7 +84,7 @@ function makeOption(block, width) {
   if (lines.length) series[0].markLine = { silent: true, symbol: 'none', label: { show: false }, lineStyle: { color: color('axis'), type: [4, 4] }, data: lines };
   return {
     ...baseOption(),
-    tooltip: { ...baseOption().tooltip, trigger: 'item', formatter: (p) => [h('div', null, p.seriesName), tipLine(`${name(block.x)}:`, number(p.value[0])), tipLine(`${name(block.y)}:`, number(p.value[1]))] },
+    tooltip: { ...baseOption().tooltip, trigger: 'axis', formatter: (items) => (items.length ? makeTip(block, items[0].axisValue) : '') },
     legend: legend.option || { show: false },
     title: axisTitle(name(block.y), legend.height),
     grid: { left: 8, right: 16, top: legend.height + 30, bottom: 26, containLabel: true },

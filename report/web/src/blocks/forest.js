@@ -12,14 +12,16 @@ const kFoot_px = 44;
 const kTitle_px = 30;
 
 const withUnit = (row, value) => [number(value), row.unit].filter(Boolean).join(' ');
-const percent = (row, value) => (100 * (value - row.value)) / Math.abs(row.value);
+/// Of the estimate; where that is 0, of the prior.
+const sizeOf = (row) => Math.abs(row.value || row.prior?.value || 0);
+const percent = (row, value) => (100 * (value - row.value)) / sizeOf(row);
 const legendOf = (block, width) => makeLegend(block.names, { width, itemWidth: 14 });
 
 /// Interval and value of one of the two on each row; the estimate above the prior.
 function makeIntervals(block, k) {
   const style = seriesStyle(k);
   const of = (row) => (k === 0 ? row : row.prior);
-  const rows = block.rows.map((row, i) => [row, i]).filter(([row]) => of(row) && row.value !== 0);
+  const rows = block.rows.map((row, i) => [row, i]).filter(([row]) => of(row) && sizeOf(row) > 0);
   return {
     name: block.names[k], type: 'custom', itemStyle: { color: style.color }, encode: { x: [0, 2, 3], y: 1 },
     data: rows.map(([row, i]) => [percent(row, of(row).value), i, percent(row, of(row).low), percent(row, of(row).high)]),

@@ -35,5 +35,5 @@ export function sharesBlock({ caption, columns, rows }) {
     h('tbody', null, rows.map((row) => h('tr', null,
       h('th', { scope: 'row' }, row.label, row.note && h('span', { class: 'note' }, row.note)),
       h('td', { class: 'right' }, row.text),
-      h('td', { class: 'bar', 'aria-hidden': 'true' }, h('div', null, h('span', { style: `width:${Math.max(0.5, 100 * Math.min(1, row.share)).toFixed(2)}%` }))))))));
+      h('td', { class: 'bar', 'aria-hidden': 'true' }, h('div', null, h('span', { style: `width:${row.share > 0 ? Math.max(0.5, 100 * Math.min(1, row.share)).toFixed(2) : 0}%` }))))))));
 }
