@@ -154,8 +154,8 @@ constexpr Command kCommands[] = {{"run", add_run_command},
                                  {"completion", add_completion_command},
                                  {"man", add_man_command}};
 
-/// Adds the command that the first argument names, which saves the time that the options of all others take. Else, and
-/// for commands that tell of all others, adds all.
+/// Adds only the command that the first argument names: the options of all others take time. Adds all where the first
+/// argument names none, and for commands that describe all others.
 void add_commands(CLI::App& app, Action& action, const std::string& first_argument) {
   static const std::set<std::string> kTellOfAll{"help", "completion", "man"};
   const auto is_named = [&](const Command& command) { return first_argument == command.name; };

@@ -1,5 +1,5 @@
 # Libraries that rollrig loads when it first needs them (sim/core/shared_library.h): each links packages that take long
-# to load, has copies of what it uses of the static libraries, and shows one function. No program is linked to them;
+# to load, has copies of what it uses of the static libraries, and exports one function. No program is linked to them;
 # targets depend on them by name.
 set(rollrig_loaded_libraries rollrig_multibody rollrig_least_squares)
 
@@ -10,8 +10,8 @@ function(rollrig_add_loaded_library target)
   add_library(${target} SHARED ${ARGN})
   set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     VERSION "${PROJECT_VERSION}" SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
-  # A wheel may bring along what it links (python/make_wheel.sh --bundle): it names all of it, and by RPATH instead of
-  # RUNPATH the loader finds there what those libraries need in turn.
+  # For a bundled wheel (python/make_wheel.sh --bundle): --no-as-needed lists every linked library in the target, and
+  # --disable-new-dtags writes RPATH instead of RUNPATH, which the loader also uses for what those libraries need.
   target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-as-needed LINKER:--disable-new-dtags)
 endfunction()
 

@@ -28,10 +28,10 @@ constexpr std::array<InputInfo, rigs::kRollerInputCount + 1> kInputs{
     {{"speed_m_s", "Speed of the surface past the wheel", between(-150.0, 150.0)},
      {"load_N", "Load at the contact", between(0.0, 1e6)},
      {"ambient_temperature_K", "Air at the tire", kSurroundings_K},
-     {"surface_temperature_K", "Road, drum, belt or roller under the tire; it does not follow the air",
+     {"surface_temperature_K", "Road, drum, belt or roller under the tire; it does not follow ambient_temperature_K",
       kSurroundings_K},
      {"drive_force_N", "Torque at the hub divided by the loaded radius; positive when it drives", kForces_N},
-     {"acceleration_m_s2", "Rate of change of speed_m_s; in co-simulation, the speed changes by it through a step",
+     {"acceleration_m_s2", "Rate of change of speed_m_s; in co-simulation, in co-simulation, the speed also changes at this rate during a step",
       between(-1e3, 1e3)}}};
 constexpr std::size_t kSpeed = rigs::index_of(rigs::DrumInput::kSpeed);
 constexpr std::size_t kAcceleration = rigs::kRollerInputCount;

@@ -8,7 +8,8 @@ import numpy as np
 
 
 class Channel(np.ndarray[Any, np.dtype[np.float64]]):
-    """A NumPy array with `name` and `unit`. A slice keeps both; what is computed from it is a plain array.
+    """A NumPy array with `name` and `unit`. A slice or a copy keeps both. Arithmetic and NumPy's ufuncs give a plain array;
+    some other functions, such as np.gradient(), keep the unit although it no longer applies.
 
     Channels of results cannot be changed; copy() of one can.
     """

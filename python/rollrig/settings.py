@@ -99,7 +99,7 @@ def to_names(names: str | Iterable[str], argument: str) -> list[str]:
 
 
 def take_given(arguments: Mapping[str, Any]) -> dict[str, Any]:
-    """Without what is None: of that, the library knows the default. Paths become text, mappings become dicts."""
+    """The arguments that are not None; for the others the library uses its defaults. Mappings become dicts."""
     return {key: _to_plain(value) for key, value in arguments.items() if value is not None}
 
 
