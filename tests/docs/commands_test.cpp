@@ -36,6 +36,7 @@ const std::vector<NotRun> kNotRun{
     {"clang-format -i <files>", "the reader names the files"},
     {"rollrig serve", "serves its page until it is stopped"},
     {"mpirun ", "needs MPI and a file of machines"},
+    {"fmi-standard", "needs a network"},
     {"$ROLLRIG_MEASURED_DATA", "needs measured data that are not part of rollrig"},
 };
 
