@@ -100,11 +100,14 @@ ReportTable make_iso_cycles(const ReportValues& values) {
 std::optional<ReportTable> make_iso_methods(const ReportValues& values) {
   const std::size_t methods = values.has("/result/methods") ? values.json()["result"]["methods"].size() : 0;
   if (methods < 2) return std::nullopt;
-  ReportTable table{
-      "Methods of the standard", {"method", "F_r, N", "RRc, N/kN", "at 25 °C and 2 m, N/kN", "differs, %"}, {}, 0};
+  ReportTable table{"Methods of the standard",
+                    {"method", "skim, N", "F_r, N", "RRc, N/kN", "at 25 °C and 2 m, N/kN", "differs, %"},
+                    {},
+                    0};
   for (std::size_t i = 0; i < methods; ++i) {
     const std::string method = fmt::format("/result/methods/{}", i);
-    table.rows.push_back({values.value(method + "/name"), values.number(method + "/rolling_resistance_N", ".2f"),
+    table.rows.push_back({values.value(method + "/name"), values.number(method + "/parasitic_N", ".2f"),
+                          values.number(method + "/rolling_resistance_N", ".2f"),
                           values.number(method + "/rrc_N_per_kN", ".3f"),
                           values.number(method + "/rrc_25degC_2m_N_per_kN", ".3f"),
                           values.number(method + "/difference_percent", "+.2f")});
@@ -117,6 +120,7 @@ ReportSection make_iso_results(const RunSpec& spec, const ReportValues& values) 
   const double coefficient_per_K = iso.has_value() ? iso->ambient_coefficient_per_K : models::kAmbientCoefficient_per_K;
   const std::size_t cycles = values.has("/result/cycles") ? values.json()["result"]["cycles"].size() : 0;
   ReportForm form{{make_field("Number of measurements", std::to_string(std::max<std::size_t>(1, cycles))),
+                   values.field("Method of the standard", "/result/method"),
                    values.field("Parasitic loss, by the skim test", "/result/parasitic_N", ".2f"),
                    values.field("Rolling resistance", "/result/rolling_resistance_N", ".2f"),
                    values.field("Coefficient as measured", "/result/rrc_N_per_kN", ".3f"),
@@ -131,8 +135,10 @@ ReportSection make_iso_results(const RunSpec& spec, const ReportValues& values) 
                            {values.number("/uncertainty/budgets/0/expanded_uncertainty", ".3f")},
                            "N/kN, by the budget below"});
   }
-  form.fields.push_back(values.field("  from noise and drift of torque or force alone (k = 2)",
-                                     "/result/rrc_uncertainty_N_per_kN", ".3f"));
+  if (values.has("/result/rrc_uncertainty_N_per_kN")) {
+    form.fields.push_back(values.field("  from noise and drift of torque or force alone (k = 2)",
+                                       "/result/rrc_uncertainty_N_per_kN", ".3f"));
+  }
   form.fields.push_back(make_blank("Alignment equation of the laboratory"));
   form.fields.push_back(make_blank("Aligned coefficient, N/kN"));
   if (values.has("/result/label_class")) {

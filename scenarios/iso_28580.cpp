@@ -6,6 +6,7 @@
 #include "models/tire/conversion_laws.h"
 #include "models/tire/label_class.h"
 #include "scenarios/common/drum_bench.h"
+#include "scenarios/common/iso_method_budgets.h"
 #include "scenarios/common/iso_methods.h"
 #include "scenarios/common/iso_uncertainty.h"
 #include "scenarios/common/readings.h"
@@ -28,10 +29,11 @@ struct Settings : CycleSettings {
     visit(Field{"measurement_min", between(1.0, 600.0), "Load of a measurement cycle; its skim is as the first", 10.0},
           p.measurement_s);
     IsoAccuracies::visit(p.accuracies, visit);
-    visit(Field{"method", any_number(),
-                "Method whose RRc is corrected and labeled; all are reported, deceleration only when it is this one, "
-                "since it adds coasts"},
-          p.method);
+    visit(
+        Field{"method", any_number(),
+              "Method that gives F_r, skim loss and RRc of every cycle; the others are listed beside it, deceleration "
+              "only when it is this one, since it adds coasts"},
+        p.method);
     visit(Field{"spindle_misalignment_mrad", between(-20.0, 20.0),
                 "Angle by which the force cell of the force method is off the right angle to the load", 0.0},
           p.spindle_misalignment_rad);
@@ -70,7 +72,7 @@ struct Results {
     cycle.visit(visit);
     visit(Result{"rrc_25degC_2m_N_per_kN", "", ".3f", "RRc corrected to 25 degC and the 2 m drum"}, corrected_rrc);
     visit_uncertainty(visit);
-    visit(Result{"method", "Method", "", "the method of that RRc"}, method);
+    visit(Result{"method", "Method", "", "the method that gave F_r, skim loss and RRc"}, method);
     visit(ResultList{"methods", "Methods of the standard", "F_r by each method"}, methods);
     visit_label(visit);
     visit(Result{"pressure_set_kPa", "", ".1f", "as set after the soak, gauge"}, pressure_set_Pa);
@@ -99,7 +101,7 @@ struct Results {
       visit(JointLine{"  zero error of the torque",
                       "+- {rrc_uncertainty_offset_kept_N_per_kN}, canceled by the skim test"});
     } else {
-      visit(JointLine{"RRc at 25 degC, 2 m drum", "{rrc_25degC_2m_N_per_kN} by the {method} method"});
+      visit(JointLine{"RRc at 25 degC, 2 m drum", "{rrc_25degC_2m_N_per_kN}"});
     }
     visit(JointLine{"  tire file says", "{tire_file.rrc_N_per_kN}, difference {tire_file.difference_percent}"});
     visit_label_lines(visit);
@@ -170,12 +172,11 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   const double speed_m_s = settings.conditions.speed_m_s;
   const double band_m_s = find_coast_band_m_s(spec, settings.conditions);
   for (int i = 0; i <= settings.measurement_cycles; ++i) {
-    const bool coasts = settings.coasts() && i == settings.measurement_cycles;
     program.roll(i == 0 ? "warm-up" : fmt::format("measurement {}", i),
                  i == 0 ? *settings.warm_up_s : settings.measurement_s);
-    if (coasts) add_coast(program, "loaded", speed_m_s, band_m_s);
+    if (settings.coasts()) add_coast(program, {i, true}, speed_m_s, band_m_s);
     program.skim(i == 0 ? "skim" : fmt::format("skim {}", i), settings.skim_s);
-    if (coasts) add_coast(program, "skim", speed_m_s, band_m_s);
+    if (settings.coasts()) add_coast(program, {i, false}, speed_m_s, band_m_s);
   }
   return program;
 }
@@ -206,23 +207,43 @@ double simulate_resistance_N(Settings settings, RunSpec spec, double speed_m_s, 
   return find_cycles(outcome.recording, spec, settings.conditions).back().rolling_resistance_N;
 }
 
-/// F_r by every method that the run allows, the torque method first.
+/// What a method reads in a cycle, with the angle of the force cell as set.
+MethodReadings read_cycle(const std::string& method, const Settings& settings, const RunSpec& spec,
+                          const sim::Recording<double>& recording, const CycleOfTest& at) {
+  MethodReadings readings = read_method(method, recording, spec, at, find_coast_band_m_s(spec, settings.conditions));
+  readings.misalignment_rad = settings.spindle_misalignment_rad;
+  return readings;
+}
+
+/// F_r of a cycle by every method that the run allows, the torque method first.
 std::vector<MethodResult> evaluate_methods(const Settings& settings, const RunSpec& spec,
-                                           const sim::Recording<double>& recording, const Cycle& cycle) {
+                                           const sim::Recording<double>& recording, const CycleOfTest& at) {
   std::vector<MethodResult> methods;
-  const auto add = [&](const char* name, double loss_N) {
-    const double rrc = loss_N / cycle.loaded.load_N;
-    methods.push_back(
-        {name, loss_N, rrc, correct_rrc(rrc, cycle.loaded.ambient_K, spec), loss_N / cycle.rolling_resistance_N - 1.0});
-  };
-  add(kTorqueMethod, cycle.rolling_resistance_N);
-  add(kForceMethod, cycle.force_method_N);
-  add(kPowerMethod, calc_power_method_N(recording, spec, cycle));
-  if (settings.coasts()) {
-    const double band_m_s = find_coast_band_m_s(spec, settings.conditions);
-    add(kDecelerationMethod, calc_deceleration_method_N(recording, spec, cycle, band_m_s));
+  for (const char* name : {kTorqueMethod, kForceMethod, kPowerMethod, kDecelerationMethod}) {
+    if (name == std::string(kDecelerationMethod) && !settings.coasts()) continue;
+    const Cycle cycle = evaluate_by_method(at.cycle, read_cycle(name, settings, spec, recording, at), spec);
+    methods.push_back({name, cycle.parasitic_N, cycle.rolling_resistance_N, cycle.rrc,
+                       correct_rrc(cycle.rrc, cycle.loaded.ambient_K, spec)});
+    methods.back().difference = cycle.rolling_resistance_N / methods.front().rolling_resistance_N - 1.0;
   }
   return methods;
+}
+
+/// The cycles of the test, with F_r, skim loss and RRc by the method that is asked for.
+std::vector<Cycle> find_test_cycles(const Settings& settings, const RunSpec& spec,
+                                    const sim::Recording<double>& recording) {
+  std::vector<Cycle> cycles = find_cycles(recording, spec, settings.conditions);
+  cycles.resize(std::min(cycles.size(), static_cast<std::size_t>(settings.measurement_cycles) + 1));
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    const CycleOfTest at{cycles[i], static_cast<int>(i)};
+    const auto evaluate_by = [&](const std::string& method) {
+      return evaluate_by_method(at.cycle, read_cycle(method, settings, spec, recording, at), spec);
+    };
+    const double force_method_N = evaluate_by(kForceMethod).rolling_resistance_N;
+    cycles[i] = evaluate_by(settings.method.value);
+    cycles[i].force_method_N = force_method_N;
+  }
+  return cycles;
 }
 
 /// Where a test differs from the one that the label is defined by; empty where it does not.
@@ -269,19 +290,14 @@ void add_label(const Settings& settings, const RunSpec& spec, Results& results) 
 }
 
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
-  std::vector<Cycle> cycles = find_cycles(outcome.recording, spec, settings.conditions);
-  cycles.resize(std::min(cycles.size(), static_cast<std::size_t>(settings.measurement_cycles) + 1));
-  for (Cycle& cycle : cycles) {
-    cycle.force_method_N = add_misalignment_N(cycle.force_method_N, cycle, spec, settings.spindle_misalignment_rad);
-  }
+  const std::vector<Cycle> cycles = find_test_cycles(settings, spec, outcome.recording);
+  const CycleOfTest last{cycles.back(), static_cast<int>(cycles.size()) - 1};
   Results results;
   results.cycle = cycles.back();
   const double ambient_K = results.cycle.loaded.ambient_K;
   results.method = settings.method.value;
-  results.methods = evaluate_methods(settings, spec, outcome.recording, results.cycle);
-  for (const MethodResult& method : results.methods) {
-    if (method.name == results.method) results.corrected_rrc = method.corrected_rrc;
-  }
+  results.methods = evaluate_methods(settings, spec, outcome.recording, last);
+  results.corrected_rrc = correct_rrc(results.cycle.rrc, ambient_K, spec);
   if (results.method == kTorqueMethod) results.uncertainty = calc_rrc_uncertainty(results.cycle, spec);
   add_label(settings, spec, results);
   results.pressure_set_Pa = *settings.conditions.pressure_Pa;
@@ -301,9 +317,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   if (!models::is_ambient_correction_valid(ambient_K)) {
     outcome.warnings.push_back("the correction to 25 degC holds from 20 to 30 degC only");
   }
-  MethodReadings readings = read_method(settings.method.value, outcome.recording, spec, cycles.back(),
-                                        find_coast_band_m_s(spec, settings.conditions));
-  readings.misalignment_rad = settings.spindle_misalignment_rad;
+  const MethodReadings readings = read_cycle(settings.method.value, settings, spec, outcome.recording, last);
   outcome.make_measurement_model = [&spec, settings, cycles, readings] {
     const auto simulate = [&](double speed_m_s, double pressure_Pa) {
       return simulate_resistance_N(settings, spec, speed_m_s, pressure_Pa);
@@ -321,7 +335,7 @@ Scenario make() {
        "minute gives the parasitic loss. With measurement_cycles, further cycles of 10 min load and 3 min skim "
        "follow, and the last of them is the measurement. Ranges are found from the load signal. With "
        "[service_description] of the tire, load, pressure, speed, soak, warm-up and temperature coefficient are those "
-       "of its class. With method=deceleration, a coast under load and one at skim load are added.",
+       "of its class. With method=deceleration, each cycle has a coast under load and one at skim load.",
        "ISO 28580:2009 as in Kolekar and Narasimhan (2024) §3.2.1, §3.2.3, B.2; classes and methods: UN R117, Annex 6"},
       &plan, &evaluate);
   scenario.has_uncertainty = true;

@@ -44,7 +44,6 @@ const std::vector<MethodBudget>& list_method_budgets() {
       {kTorqueMethod,
        nullptr,
        nullptr,
-       &Cycle::rolling_resistance_N,
        "zero of torque or force",
        "gain of torque or force",
        kIsoGainLimit,
@@ -54,7 +53,6 @@ const std::vector<MethodBudget>& list_method_budgets() {
       {kForceMethod,
        &quantities::kSpindleForce,
        "force_N",
-       &Cycle::force_method_N,
        "zero of the spindle force",
        "gain of the spindle force",
        kIsoGainLimit,
@@ -64,7 +62,6 @@ const std::vector<MethodBudget>& list_method_budgets() {
       {kPowerMethod,
        &quantities::kMotorPower,
        "power_W",
-       nullptr,
        "zero of the power",
        "gain of the power",
        kIsoGainLimit,
@@ -74,7 +71,6 @@ const std::vector<MethodBudget>& list_method_budgets() {
       {kDecelerationMethod,
        &quantities::kSpeed,
        "deceleration_m_s2",
-       nullptr,
        nullptr,
        "gain of speed over time",
        kIsoTimeLimit,
@@ -89,6 +85,19 @@ const std::vector<MethodBudget>& list_method_budgets() {
 const MethodBudget& find_method_budget(const std::string& method) {
   const auto& all = list_method_budgets();
   return *std::find_if(all.begin(), all.end(), [&method](const MethodBudget& one) { return one.method == method; });
+}
+
+Cycle evaluate_by_method(const Cycle& cycle, const MethodReadings& readings, const RunSpec& spec) {
+  const MethodBudget& budget = find_method_budget(readings.method);
+  const double own = budget.own.has_value() ? budget.own->value.value_or(readings.misalignment_rad) : 0.0;
+  const auto calc_force_N = [&](const Reading& at, double value) {
+    return budget.calc_force_N({spec, at, value, spec.rig.lever_m(), 1.0, own});
+  };
+  Cycle by_method = cycle;
+  by_method.parasitic_N = calc_force_N(cycle.skim, readings.skim);
+  by_method.rolling_resistance_N = calc_force_N(cycle.loaded, readings.loaded) - by_method.parasitic_N;
+  by_method.rrc = by_method.rolling_resistance_N / cycle.loaded.load_N;
+  return by_method;
 }
 
 const Quantity& find_channel(const RunSpec& spec, const MethodBudget& budget) {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "estimation/drum_deceleration/deceleration_fit.h"
-#include "models/wheel/rolling_wheel.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -48,41 +47,34 @@ double calc_coasting_mass_kg(const RunSpec& spec, double load_N) {
   return spec.rig.inertia() / (lever_m * lever_m) + calc_spin_mass_kg(spec.tire.values, radius_m);
 }
 
+std::string CoastOfTest::name() const {
+  const char* load = is_loaded ? "loaded" : "skim";
+  return cycle_place == 0 ? load : fmt::format("{} {}", load, cycle_place);
+}
+
 MethodReadings read_method(const std::string& method, const sim::Recording<double>& recording, const RunSpec& spec,
-                           const Cycle& cycle, double band_m_s) {
+                           const CycleOfTest& at, double band_m_s) {
+  const Cycle& cycle = at.cycle;
   if (method == kForceMethod) return {method, cycle.loaded.spindle_force_N, cycle.skim.spindle_force_N};
   if (method == kPowerMethod) {
     return {method, calc_power_W(recording, spec, cycle.loaded.window),
             calc_power_W(recording, spec, cycle.skim.window)};
   }
   if (method == kDecelerationMethod) {
-    const auto fit = [&](const char* name) {
-      return fit_coast(recording, name_coast(name), cycle.loaded.speed_m_s, band_m_s);
+    const auto fit = [&](bool is_loaded) {
+      return fit_coast(recording, name_coast(CoastOfTest{at.place, is_loaded}.name()), cycle.loaded.speed_m_s,
+                       band_m_s);
     };
-    const estimation::DecelerationFit loaded = fit("loaded"), skim = fit("skim");
+    const estimation::DecelerationFit loaded = fit(true), skim = fit(false);
     return {method, loaded.value_m_s2, skim.value_m_s2, loaded.sd_m_s2, skim.sd_m_s2};
   }
   const double lever_m = spec.rig.lever_m();
-  return {method, (cycle.rolling_resistance_N + cycle.skim.force_N) * lever_m, cycle.skim.force_N * lever_m};
+  return {method, cycle.loaded.force_N * lever_m, cycle.skim.force_N * lever_m};
 }
 
 const std::vector<std::string>& list_iso_methods() {
   static const std::vector<std::string> names{kTorqueMethod, kForceMethod, kPowerMethod, kDecelerationMethod};
   return names;
-}
-
-double calc_power_method_N(const sim::Recording<double>& recording, const RunSpec& spec, const Cycle& cycle) {
-  const MethodReadings power_W = read_method(kPowerMethod, recording, spec, cycle, 0.0);
-  return power_W.loaded / cycle.loaded.speed_m_s - power_W.skim / cycle.skim.speed_m_s;
-}
-
-double add_misalignment_N(double force_method_N, const Cycle& cycle, const RunSpec& spec, double angle_rad) {
-  const auto shown_N = [&](const Reading& reading) {
-    const double loaded_radius_m = calc_loaded_radius_m(spec.tire.values, reading.load_N);
-    return reading.load_N * std::sin(angle_rad) *
-           models::calc_rolling_ratio(loaded_radius_m, spec.rig.curvature_per_m());
-  };
-  return force_method_N + shown_N(cycle.loaded) - shown_N(cycle.skim);
 }
 
 double find_coast_band_m_s(const RunSpec& spec, const DrumConditions& conditions) {
@@ -97,18 +89,12 @@ double find_coast_band_m_s(const RunSpec& spec, const DrumConditions& conditions
   return std::min(wanted_m_s, kLargestShare * conditions.speed_m_s);
 }
 
-void add_coast(DrumProgram& program, const std::string& name, double speed_m_s, double band_m_s) {
+void add_coast(DrumProgram& program, const CoastOfTest& coast, double speed_m_s, double band_m_s) {
+  const std::string name = coast.name();
   program.change_speed("speed up, " + name, kSpeedChange_s, speed_m_s + band_m_s);
   program.change_speed("hold, " + name, kHoldBeforeCoast_s, speed_m_s + band_m_s);
   program.coast(name_coast(name), speed_m_s - band_m_s, kLongestCoast_s);
   program.change_speed("back to test speed, " + name, kSpeedChange_s, speed_m_s);
-}
-
-double calc_deceleration_method_N(const sim::Recording<double>& recording, const RunSpec& spec, const Cycle& cycle,
-                                  double band_m_s) {
-  const MethodReadings at = read_method(kDecelerationMethod, recording, spec, cycle, band_m_s);
-  return calc_coasting_mass_kg(spec, cycle.loaded.load_N) * at.loaded -
-         calc_coasting_mass_kg(spec, cycle.skim.load_N) * at.skim;
 }
 
 }  // namespace rollrig::scenarios

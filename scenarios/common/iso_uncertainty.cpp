@@ -77,7 +77,7 @@ class IsoResponse {
 
 /// Whether the scatter of the cycles stands for noise and drift of the sensor.
 bool has_scatter(const RunSpec& spec, const MethodBudget& budget, const std::vector<Cycle>& cycles) {
-  return budget.resistance_N != nullptr && has_sensor(spec, budget) && cycles.size() > kFewestCycles;
+  return has_sensor(spec, budget) && cycles.size() > kFewestCycles;
 }
 
 struct ScatterOfCycles {
@@ -91,11 +91,11 @@ struct ScatterOfCycles {
 /// Validity  a trend that is small from cycle to cycle; normal errors
 /// Source    mean square successive difference, von Neumann et al., Annals of Mathematical Statistics 12 (1941) 153; not
 ///           read. The degrees of freedom: twice its squared mean over its variance
-ScatterOfCycles calc_scatter(const std::vector<Cycle>& cycles, double Cycle::*resistance_N) {
+ScatterOfCycles calc_scatter(const std::vector<Cycle>& cycles) {
   const auto n = static_cast<double>(cycles.size() - 1);
   double squares = 0.0;
   for (std::size_t i = 2; i < cycles.size(); ++i) {
-    squares += std::pow(cycles[i].*resistance_N - cycles[i - 1].*resistance_N, 2);
+    squares += std::pow(cycles[i].rolling_resistance_N - cycles[i - 1].rolling_resistance_N, 2);
   }
   return {std::sqrt(squares / (2.0 * (n - 1.0))), 2.0 * (n - 1.0) * (n - 1.0) / (3.0 * n - 4.0)};
 }
@@ -115,7 +115,8 @@ UncertainInput make_deceleration_input(const RunSpec& spec, const Cycle& cycle, 
 
 /// How much force the reading of a method stands for, per unit.
 double calc_force_per_reading(const RunSpec& spec, const MethodBudget& budget, const Reading& at) {
-  return budget.calc_force_N({spec, at, 1.0, spec.rig.lever_m()});
+  const double own = budget.own.has_value() ? budget.own->value.value_or(0.0) : 0.0;
+  return budget.calc_force_N({spec, at, 1.0, spec.rig.lever_m(), 1.0, own});
 }
 
 /// The difference of the two readings: its error from noise, drift and resolution, by the sensor or by the cycles.
@@ -123,10 +124,10 @@ UncertainInput make_reading_input(const RunSpec& spec, const std::vector<Cycle>&
                                   const MethodReadings& readings) {
   const Cycle& cycle = cycles.back();
   const MethodBudget& budget = find_method_budget(readings.method);
-  if (budget.is_slope()) return make_deceleration_input(spec, cycle, readings);
   UncertainInput input{"noise and drift, load minus skim", find_reading_key(spec, budget),
                        readings.loaded - readings.skim};
   if (!has_scatter(spec, budget, cycles)) {
+    if (budget.is_slope()) return make_deceleration_input(spec, cycle, readings);
     const MethodSensor at = find_method_sensor(spec, budget, cycle.loaded.speed_m_s);
     input.standard_uncertainty =
         std::sqrt(models::calc_difference_variance(at.sensor, cycle.loaded.samples, spec.sample_interval_s,
@@ -135,7 +136,7 @@ UncertainInput make_reading_input(const RunSpec& spec, const std::vector<Cycle>&
     input.is_from_limits = at.is_assumed;
     return input;
   }
-  const ScatterOfCycles scatter = calc_scatter(cycles, budget.resistance_N);
+  const ScatterOfCycles scatter = calc_scatter(cycles);
   input.name = "repeatability, cycle to cycle";
   input.standard_uncertainty = scatter.sd_N / calc_force_per_reading(spec, budget, cycle.loaded);
   input.degrees_freedom = scatter.degrees_of_freedom;
@@ -232,9 +233,7 @@ MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& c
   model.inputs = make_iso_inputs(spec, cycles, readings, pressure_Pa, accuracies);
   model.left_out = {"mounting of the tire, and how the test repeats from day to day: this is one test"};
   const MethodBudget& budget = find_method_budget(readings.method);
-  if (budget.resistance_N == nullptr) {
-    model.left_out.push_back("repeatability from cycle to cycle: the method is evaluated in the last cycle alone");
-  } else if (!has_scatter(spec, budget, cycles)) {
+  if (!has_scatter(spec, budget, cycles)) {
     model.left_out.push_back(fmt::format(
         "repeatability from cycle to cycle: it takes measurement_cycles = {} or more, with a sensor of the {}",
         kFewestCycles, readings.method));

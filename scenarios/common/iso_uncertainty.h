@@ -67,6 +67,7 @@ using IsoSimulation = std::function<double(double speed_m_s, double pressure_Pa)
 /// Source    the equations of readings.h. Uncertainties: `accuracies`, sensors of the run, else usual ones of the
 ///           machine, else "Assumed", which the budget marks
 /// Checked   tests/scenarios/iso_uncertainty_test.cpp
+/// `cycles` are those of evaluate_by_method().
 estimation::MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& cycles,
                                             const MethodReadings& readings, double pressure_Pa,
                                             const IsoAccuracies& accuracies, const IsoSimulation& simulate);

@@ -54,8 +54,8 @@ struct Cycle {
           loaded.drum_torque_Nm);
     visit(Result{"skim_torque_Nm", "skim", ".2f", "mean motor torque in skim", Column::kSecond}.or_left_out(),
           skim.drum_torque_Nm);
-    visit(Result{"parasitic_N", "skim", ".2f", "F_pl, skim torque over drum radius; of a belt the force"}, parasitic_N);
-    visit(Result{"rolling_resistance_N", "F_r", ".2f", "F_r = T_t/R - F_pl"}, rolling_resistance_N);
+    visit(Result{"parasitic_N", "skim", ".2f", "F_pl; by torque: skim torque over drum radius, of a belt the force"}, parasitic_N);
+    visit(Result{"rolling_resistance_N", "F_r", ".2f", "F_r = F_t - F_pl; by torque: F_t = T_t/R"}, rolling_resistance_N);
     visit(Result{"rrc_N_per_kN", "RRc", ".3f", "F_r over load"}, rrc);
     visit(Result{"force_method_N", "F_r by force", ".2f", "F_r from the spindle force", Column::kSecond},
           force_method_N);

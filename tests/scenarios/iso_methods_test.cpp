@@ -89,6 +89,36 @@ TEST_CASE("an error in the scale of the torque is in the torque method alone", "
   CHECK(difference == Approx(100.0 * (1.0 / 1.02 - 1.0)).epsilon(1e-4));
 }
 
+TEST_CASE("every number of the test is that of the method that is set, in each cycle", "[fast]") {
+  const std::vector<std::string> rig_errors{"effects.torque_gain.gain_percent=4", "spindle_misalignment_mrad=0.3",
+                                            "measurement_cycles=2"};
+  for (const char* method : {"torque", "force", "power", "deceleration"}) {
+    std::vector<std::string> settings = rig_errors;
+    settings.push_back(std::string("method=") + method);
+    const auto outcome = run("iso_28580", "c1_205_55r16", settings, "quasi_static");
+    INFO(method << ": " << outcome.result.dump());
+    const double load_N = number(outcome, "load_N");
+    CHECK(number(outcome, "rolling_resistance_N") == Approx(read_method_N(outcome, method)));
+    CHECK(number(outcome, "rrc_N_per_kN") == Approx(1e3 * read_method_N(outcome, method) / load_N));
+    // 25 degC and a 2 m drum: nothing to correct.
+    CHECK(number(outcome, "rrc_25degC_2m_N_per_kN") == Approx(number(outcome, "rrc_N_per_kN")).epsilon(1e-9));
+    const Json& cycles = outcome.result["cycles"];
+    REQUIRE(cycles.size() == 3);
+    CHECK(cycles[2]["rolling_resistance_N"] == outcome.result["rolling_resistance_N"]);
+    CHECK(cycles[2]["parasitic_N"] == outcome.result["parasitic_N"]);
+    double sum_N_per_kN = 0.0;
+    const auto to_force_method = [](const Json& of) {
+      return of["rolling_resistance_N"].get<double>() / of["force_method_N"].get<double>();
+    };
+    for (const Json& cycle : cycles) {
+      // The gain is in the torque method alone: a cycle of it would stand out by 4 % among those of another method.
+      CHECK(to_force_method(cycle) == Approx(to_force_method(outcome.result)).epsilon(5e-3));
+      sum_N_per_kN += cycle["rrc_N_per_kN"].get<double>();
+    }
+    CHECK(number(outcome, "rrc_cycles_mean_N_per_kN") == Approx(sum_N_per_kN / 3.0));
+  }
+}
+
 TEST_CASE("a force cell that is not at a right angle to the load shows a part of it, in the force method alone",
           "[fast]") {
   const auto exact = run_coasts("c1_205_55r16");
