@@ -139,7 +139,7 @@ std::string format_pair(const PairFindings& findings) {
       pair_line("Machines", fmt::format("A {} ({}), B {} ({}), tire {}", findings.machines[0], findings.sets[0],
                                         findings.machines[1], findings.sets[1], findings.tire));
   text += pair_line("Verdict", describe_pair_verdict(findings));
-  text += pair_line("RRc, A less B", show_rrc(findings.difference) + " without any effect");
+  text += pair_line("RRc, A less B", show_rrc(findings.difference) + " as measured");
   const bool is_named = findings.verdict == PairVerdict::kExplained;
   if (is_named && findings.remaining.has_value()) {
     text += pair_line("  remaining", show_rrc(*findings.remaining) + " with the effect");

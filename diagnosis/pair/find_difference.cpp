@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
-#include "diagnosis/comparison/evidence.h"
-#include "diagnosis/comparison/linear_fit.h"
 #include "diagnosis/findings/lead.h"
 #include "diagnosis/findings/verdict.h"
 #include "diagnosis/terms/machine_terms.h"
-#include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -160,31 +156,6 @@ rollrig::PairVerdict find_pair_verdict(const std::map<std::string, double>& prob
       std::all_of(probability.begin(), probability.end(), [agree](const auto& one) { return agree >= one.second; });
   if (agree >= unknown && (agree >= named || (is_long && beats_each))) return rollrig::PairVerdict::kAgree;
   return unknown >= named ? rollrig::PairVerdict::kUnexplained : rollrig::PairVerdict::kExplained;
-}
-
-rollrig::RrcEstimate estimate_rrc_difference(const Study& study, const Candidate& candidate) {
-  constexpr double kTried_u = 0.5;
-  constexpr double kTwoSided95 = 1.959964;
-  const Term& term = rrc_difference_term();
-  const Model larger = study.make_model(candidate.fit.hypothesis.with({&term, 1}));
-  const Eigen::VectorXd own = Eigen::VectorXd::Constant(1, kTried_u);
-  Eigen::VectorXd simulated = candidate.fit.simulated;
-  if (!larger.simulate_added(term, insert_own(larger, candidate.fit, term, own), simulated)) {
-    const double nothing = std::numeric_limits<double>::quiet_NaN();
-    return {nothing, nothing, nothing};
-  }
-  const double factor = unit_of_key(term.parameters().front().key).factor;
-  const double tried_N_per_kN = from_prior_units(term.parameters().front(), kTried_u, 1).value_SI / factor;
-  // Where something is missing, the discrepancy may be as large as it has to be, and the interval with it.
-  Candidate free = candidate;
-  std::vector<AmplitudePrior> priors;
-  for (const double amplitude : candidate.amplitudes) priors.push_back(free_amplitude(amplitude));
-  free.amplitudes = Evidence(study.discrepancy, candidate.fit).integrate(priors).mean;
-  const LinearFit linear(study.discrepancy, free);
-  const LinearFit::Score score = linear.calc_score((simulated - candidate.fit.simulated) / tried_N_per_kN);
-  const double value = score.along / score.variance;
-  const double half = kTwoSided95 / std::sqrt(score.variance);
-  return {value, value - half, value + half};
 }
 
 }  // namespace rollrig::diagnosis

@@ -33,11 +33,4 @@ std::vector<NamedDifference> find_differences(const Study& study, const Comparis
 rollrig::PairVerdict find_pair_verdict(const std::map<std::string, double>& probability,
                                        const std::vector<NamedDifference>& causes);
 
-/// By how much the coefficient on the first machine exceeds that on the second under a fit, and its interval.
-/// Equation  d = s/V, sd = 1/sqrt(V): score s and variance V of a force d Fz on the first machine (LinearFit), which
-///           base parameters and offsets cannot take within their uncertainties
-/// Validity  linear; the interval holds the noise and the discrepancy
-/// Checked   tests/diagnosis/machine_pair_test.cpp
-rollrig::RrcEstimate estimate_rrc_difference(const Study& study, const Candidate& candidate);
-
 }  // namespace rollrig::diagnosis

@@ -10,6 +10,7 @@
 #include "diagnosis/findings/gap.h"
 #include "diagnosis/findings/locations.h"
 #include "diagnosis/pair/find_difference.h"
+#include "diagnosis/pair/rrc_difference.h"
 #include "diagnosis/terms/machine_terms.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
@@ -193,12 +194,12 @@ PairFindings diagnose_pair(const MeasurementSet& a, const MeasurementSet& b, con
   const std::vector<NamedDifference> differences = find_differences(study, comparison);
   for (const NamedDifference& one : differences) findings.causes.push_back(one.cause);
   findings.verdict = find_pair_verdict(findings.probability, differences);
-  findings.difference = estimate_rrc_difference(study, study.null);
+  findings.difference = read_rrc_difference(study.set, study.null.fit.simulated);
   stages.begin("where", 0.8);
   findings.where = find_locations(study);
   stages.begin("runs left out", 1.0);
   if (findings.verdict != PairVerdict::kAgree && !differences.empty()) {
-    findings.remaining = estimate_rrc_difference(study, *differences.front().lead);
+    findings.remaining = read_rrc_difference(study.set, differences.front().lead->fit.simulated);
     weigh_on_left_out_runs(study, differences.front(), findings);
     if (findings.probability["unknown"] >= findings.causes.front().probability) {
       findings.verdict = PairVerdict::kUnexplained;

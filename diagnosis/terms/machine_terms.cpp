@@ -166,26 +166,6 @@ struct LinerRecord {
   }
 };
 
-struct RrcDifference {
-  enum Parameter { kDifference };
-
-  static EffectInfo info() {
-    EffectInfo info;
-    info.id = "rrc_difference";
-    info.summary = "A force in proportion to the load, which heats nothing";
-    info.equation = "F <- F + d Fz, on a loaded tire";
-    info.source = "a difference of the coefficient, by definition";
-    info.parameters = {{"difference_N_per_kN", between(-100.0, 100.0), {-1.0, 1.0}, "d", 0.0}};
-    info.visible_in = {quantities::kMachineForce};
-    return info;
-  }
-
-  template <class S>
-  static void loss(const EffectView<S>& self, const Instant<S>& now, LossPort<S>& port) {
-    port.add_force(self.parameter(kDifference) * positive_part(now.motion.load_N), zero<S>());
-  }
-};
-
 }  // namespace
 }  // namespace rollrig::models
 
@@ -257,11 +237,6 @@ std::vector<const Term*> choose_machine_terms(const models::MachineTraits& machi
     if (is_seen && is_wanted) chosen.push_back(term);
   }
   return chosen;
-}
-
-const Term& rrc_difference_term() {
-  static const MachineTerm term(models::make_effect<models::RrcDifference>(), 0);
-  return term;
 }
 
 }  // namespace rollrig::diagnosis

@@ -50,8 +50,4 @@ std::vector<const Term*> choose_machine_terms(const models::MachineTraits& machi
                                               const std::vector<std::string>& only,
                                               const std::vector<std::string>& without);
 
-/// A force in proportion to the load that heats nothing, on the first machine alone: by how much it reads another
-/// rolling resistance coefficient. It is no cause.
-const Term& rrc_difference_term();
-
 }  // namespace rollrig::diagnosis
