@@ -40,13 +40,14 @@ void fill_numbers(const estimation::AlignmentResult& result, Alignment& alignmen
 }
 
 Json make_value_json(const AlignedValueInput& input, const estimation::StoredAlignment& stored,
-                     const estimation::UncertainValue& aligned, const std::vector<std::string>& warnings) {
+                     const estimation::UncertainValue& aligned, const AlignedValue& value) {
   const double half = aligned.coverage_factor * aligned.sd;
   Json json = {{"format", "rollrig-aligned-value/1"},
                {"alignment", input.alignment},
                {"machine", stored.machine},
                {"measured_N_per_kN", input.rrc_N_per_kN},
                {"measurements", input.measurements},
+               {"alignment_is_valid", value.is_valid},
                {"aligned_N_per_kN", aligned.value},
                {"sd_N_per_kN", aligned.sd},
                {"degrees_of_freedom", aligned.degrees_of_freedom},
@@ -55,7 +56,7 @@ Json make_value_json(const AlignedValueInput& input, const estimation::StoredAli
   json["contributions"] = make_list(aligned.contributions, [](const estimation::AlignedContribution& one) {
     return Json{{"name", one.name}, {"sd_N_per_kN", one.sd}, {"degrees_of_freedom", one.degrees_of_freedom}};
   });
-  if (!warnings.empty()) json["warnings"] = warnings;
+  if (!value.warnings.empty()) json["warnings"] = value.warnings;
   return json;
 }
 
@@ -72,21 +73,35 @@ void check_value_input(const AlignedValueInput& input) {
                     ""});
 }
 
-std::vector<std::string> list_value_warnings(const AlignedValueInput& input,
-                                             const estimation::StoredAlignment& stored) {
-  std::vector<std::string> warnings;
-  if (!stored.is_valid) warnings.push_back("the alignment is not valid: its own report says why");
+/// Why an alignment does not hold for a value; empty where it does.
+std::vector<std::string> list_reasons_against(const AlignedValueInput& input,
+                                              const estimation::StoredAlignment& stored) {
+  std::vector<std::string> reasons;
+  if (!stored.is_valid) reasons.push_back("the alignment is not valid: its own report says why");
   const std::string on = input.on.empty() ? report::find_report_date() : input.on;
-  if (estimation::read_day_s(on, "--on") > estimation::read_day_s(stored.valid_until, "valid_until")) {
-    warnings.push_back(fmt::format("the alignment was valid until {}, which is before {}", stored.valid_until, on));
+  const double on_s = estimation::read_day_s(on, "--on");
+  if (on_s > estimation::read_day_s(stored.valid_until, "valid_until")) {
+    reasons.push_back(fmt::format("the alignment was valid until {}, which is before {}", stored.valid_until, on));
   }
+  if (on_s < estimation::read_day_s(stored.last_measurement, "last_measurement")) {
+    reasons.push_back(
+        fmt::format("the alignment was measured until {}, which is after {}: it does not hold for a value "
+                    "of that day",
+                    stored.last_measurement, on));
+  }
+  return reasons;
+}
+
+/// Whether the alignment holds for the value, and what else is to be said of it.
+void judge_value(const AlignedValueInput& input, const estimation::StoredAlignment& stored, AlignedValue& value) {
+  value.warnings = list_reasons_against(input, stored);
+  value.is_valid = value.warnings.empty();
   if (input.rrc_N_per_kN < stored.low_N_per_kN || input.rrc_N_per_kN > stored.high_N_per_kN) {
-    warnings.push_back(
+    value.warnings.push_back(
         fmt::format("{:.2f} N/kN lies outside the alignment tires, {:.2f} to {:.2f} N/kN: the line is "
                     "extrapolated",
                     input.rrc_N_per_kN, stored.low_N_per_kN, stored.high_N_per_kN));
   }
-  return warnings;
 }
 
 /// The files of the measurements, as they were read.
@@ -140,10 +155,10 @@ AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOp
       estimation::align_value(stored.line, input.rrc_N_per_kN, input.measurements);
   AlignedValue value;
   value.rrc = make_estimate("rrc_aligned", aligned.value, aligned.sd, aligned.coverage_factor, "N/kN");
-  value.warnings = list_value_warnings(input, stored);
+  judge_value(input, stored, value);
   value.text = fmt::format("align   {}\n", input.alignment) +
                format_tables(report::make_aligned_value_tables(input.rrc_N_per_kN, input.measurements, aligned));
-  Json json = make_value_json(input, stored, aligned, value.warnings);
+  Json json = make_value_json(input, stored, aligned, value);
   if (wants_uncertainty(uncertainty)) {
     const estimation::MeasurementModel model =
         estimation::make_aligned_value_model(stored.line, input.rrc_N_per_kN, input.measurements);

@@ -51,11 +51,13 @@ int apply_command(const AlignOptions& options) {
   Output output(options.output);
   AlignedValueInput value = options.value;
   value.on = fit.on;
-  output.show(make_uncertain("align", options.output, options.uncertainty,
-                             [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
-                               return apply_alignment(value, uncertainty, progress);
-                             }));
-  return kDone;
+  const AlignedValue aligned =
+      make_uncertain("align", options.output, options.uncertainty,
+                     [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
+                       return apply_alignment(value, uncertainty, progress);
+                     });
+  output.show(aligned);
+  return aligned.is_valid ? kDone : kDiffers;
 }
 
 int align_or_apply(const AlignOptions& options) {

@@ -236,8 +236,9 @@ void add_line_warnings(AlignmentResult& result) {
         "A1 and B1 of the reference laboratory are not given (--reference): the result is aligned "
         "to its machine, not to the network");
   }
-  if (result.sigma_m.sd <= 0.0) {
-    result.warnings.push_back("all measurements of each tire are equal: real measurements scatter");
+  constexpr double kLeastScatter_N_per_kN = 1e-6;  // Assumed: far below any resolution; means of equal values round
+  if (result.sigma_m.sd <= kLeastScatter_N_per_kN) {
+    result.warnings.push_back("all measurements of each tire are equal: real measurements scatter. Were they copied?");
   }
   if (std::abs(result.line.A2 - 1.0) > 0.2) {
     result.warnings.push_back(

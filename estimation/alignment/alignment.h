@@ -52,7 +52,7 @@ Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& resul
 /// The numbers of such a document that a later value needs.
 struct StoredAlignment {
   AlignmentLine line;
-  std::string machine, valid_until;
+  std::string machine, last_measurement, valid_until;
   double low_N_per_kN = 0.0, high_N_per_kN = 0.0;  // range of the tires on the candidate machine
   bool is_valid = false;
 };

@@ -194,6 +194,7 @@ StoredAlignment read_alignment_json(const std::string& path) {
   StoredAlignment stored;
   stored.line = read_line(document, path);
   stored.machine = read_word(document, "machine", path);
+  stored.last_measurement = read_word(document, "last_measurement", path);
   stored.valid_until = read_word(document, "valid_until", path);
   const Json& valid = find_key(document, "valid", path);
   if (!valid.is_boolean()) throw make_key_error(path, "valid", valid, "true or false");

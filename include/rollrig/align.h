@@ -71,12 +71,13 @@ struct AlignedValueInput {
 /// An aligned value with its expanded uncertainty (95 %).
 struct AlignedValue : Report {
   ParameterEstimate rrc;  // N/kN
+  bool is_valid = false;  // the alignment meets its rules, and the day is one on which it holds
   std::vector<std::string> warnings;
 };
 
 /// RRC_aligned = A1 (A2 RRC_m + B2) + B1. Its uncertainty holds the line, what tires differ by beside it, and the
 /// scatter of `measurements` measurements; that of A1 and B1 is not included.
-/// Validity  the range of the alignment tires, until the day in the file; beyond them a warning says so
+/// Validity  the range of the alignment tires, from its last measurement until the day in the file; beyond them a warning says so
 /// Source    EU 2020/740, Annex V, Section 6
 /// Errors    InputError: a wrong file or day, a value that is no RRC in N/kN, fewer than one measurement
 AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOptions& uncertainty = {},

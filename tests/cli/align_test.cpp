@@ -1,4 +1,5 @@
 // rollrig align as a laboratory meets it: an alignment, its files, and values that it is applied to.
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -57,7 +58,7 @@ TEST_CASE("the example is aligned within 80 columns, and its numbers are those o
   CHECK(alignment["sigma_m_N_per_kN"]["ci95"][1].get<double>() > 0.04);
   CHECK_THAT(read_file(folder.file("out/measurements.csv")), Catch::StartsWith("tire,class,machine,date,"));
 
-  const auto value = run_program("align --apply out/alignment.json --rrc 8.1 --json -", folder.path());
+  const auto value = run_program("align --apply out/alignment.json --rrc 8.1 --on 2026-06-01 --json -", folder.path());
   REQUIRE(value.status == 0);
   const json aligned = json::parse(value.out);
   const double at_reference =
@@ -146,12 +147,28 @@ TEST_CASE("a set that breaks rules is aligned on demand, but is not valid", "[fa
   CHECK(alignment["checks"][0]["met"] == false);
 }
 
+TEST_CASE("measurements that are all copies of one another are doubted", "[fast]") {
+  const TemporaryFolder folder;
+  std::string text = "tire,class,date,rrc_N_per_kN,reference_N_per_kN\n";
+  for (const char* month : {"03", "04", "05", "06"}) {
+    int tire = 0;
+    for (const char* rrc : {"6.31", "7.17", "8.43", "9.59", "10.71"}) {
+      ++tire;
+      text += fmt::format("T{0},C1,2026-{1}-{0:02},{2},{2}\n", tire, month, rrc);
+    }
+  }
+  write_file(folder.file("copied.csv"), text);
+  const auto run = run_program("align copied.csv", folder.path());
+  INFO(run.err);
+  CHECK_THAT(flatten(run.out), Contains("all measurements of each tire are equal: real measurements scatter"));
+}
+
 TEST_CASE("a value outside the tires, and one of an alignment that is not valid, have their warning", "[fast]") {
   const TemporaryFolder folder;
   write_file(folder.file("tires.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN"));
   CHECK(run_program("align tires.csv --on 2030-01-01 --json late.json", folder.path()).status == 1);
   const auto run = run_program("align --apply late.json --rrc 13.2", folder.path());
-  CHECK(run.status == 0);
+  CHECK(run.status == 1);
   CHECK_THAT(flatten(run.out), Contains("extrapolated") && Contains("not valid"));
 }
 
@@ -160,14 +177,17 @@ TEST_CASE("an alignment that is over is doubted where it is applied, by today or
   write_file(folder.file("tires.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN"));
   REQUIRE(run_program("align tires.csv --json a.json", folder.path()).status == 0);
   const std::string until = json::parse(read_file(folder.file("a.json")))["valid_until"];
-  const auto apply = [&](const std::string& options, const std::string& before = "") {
+  const std::string last = json::parse(read_file(folder.file("a.json")))["last_measurement"];
+  const auto apply = [&](int status, const std::string& options, const std::string& before = "") {
     const auto run = run_program("align --apply a.json --rrc 8.1 " + options, folder.path(), before);
-    CHECK(run.status == 0);
+    CHECK(run.status == status);
     return flatten(run.out);
   };
-  CHECK_THAT(apply("--on " + until), !Contains("was valid until"));
-  CHECK_THAT(apply("--on 2049-01-01"), Contains("was valid until " + until + ", which is before 2049-01-01"));
-  CHECK_THAT(apply("", "SOURCE_DATE_EPOCH=2500000000"), Contains("which is before 2049-03-22"));
+  CHECK_THAT(apply(0, "--on " + until), !Contains("was valid until"));
+  CHECK_THAT(apply(0, "--on " + last), !Contains("does not hold"));
+  CHECK_THAT(apply(1, "--on 2049-01-01"), Contains("was valid until " + until + ", which is before 2049-01-01"));
+  CHECK_THAT(apply(1, "", "SOURCE_DATE_EPOCH=2500000000"), Contains("which is before 2049-03-22"));
+  CHECK_THAT(apply(1, "--on 2020-01-01"), Contains("the alignment was measured until " + last));
 }
 
 TEST_CASE("the certificate has the numbers of the JSON, the hash of its file, and room for signatures", "[fast]") {
@@ -207,7 +227,8 @@ TEST_CASE("an alignment and a value on it have a budget and Monte Carlo, which c
   const json& budget = uncertain["uncertainty"]["budgets"][0];
   CHECK(budget["value"].get<double>() == Approx(value["aligned_N_per_kN"].get<double>()));
   CHECK(budget["combined_standard_uncertainty"].get<double>() == Approx(value["sd_N_per_kN"].get<double>()));
-  const auto text = run_program("align --apply plain/alignment.json --rrc 8.1 --monte-carlo 300", folder.path());
+  const auto text =
+      run_program("align --apply plain/alignment.json --rrc 8.1 --on 2026-06-01 --monte-carlo 300", folder.path());
   CHECK(text.status == 0);
   CHECK(longest_line(text.out) <= 80);
   CHECK_THAT(text.out, Contains("Monte Carlo beside the GUM, 300 trials"));
