@@ -15,9 +15,10 @@ namespace rollrig {
 namespace {
 
 // Assumed: beyond what is built, or measured in a test.
-constexpr OptionRange kMass{"--mass", 1.0, 1e6, "kg"};  // a heavy dump truck has 6e5 kg
+// A motorcycle with its rider has 150 kg, a heavy dump truck 6e5 kg. A smaller mass is one in t.
+constexpr OptionRange kMass{"--mass", 100.0, 1e6, "kg"};
 constexpr OptionRange kRotatingMass{"--rotating-mass", 0.0, 1e6, "kg"};
-constexpr OptionRange kCorrectedMass{"--corrected-mass", 1.0, 1e6, "kg"};
+constexpr OptionRange kCorrectedMass{"--corrected-mass", 100.0, 1e6, "kg"};
 constexpr OptionRange kDragArea{"--drag-area", 0.01, 1000.0, "m2"};
 constexpr OptionRange kWheelRadius{"--wheel-radius", 0.1, 2.0, "m"};
 constexpr OptionRange kYawDegree{"--yaw-degree", 0.0, 4.0, ""};

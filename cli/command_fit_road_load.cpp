@@ -249,7 +249,7 @@ int default_road_load_command(const DefaultRoadLoadCommandOptions& options) {
 }
 
 void add_vehicle_options(CLI::App& command, FitRoadLoadOptions& options) {
-  const CLI::Validator kMassRange = shown_range(1.0, 1e6);  // Assumed: a heavy dump truck has 6e5 kg
+  const CLI::Validator kMassRange = shown_range(100.0, 1e6);  // Assumed: from a motorcycle to a dump truck
   command.add_option("--mass", options.mass_kg, "Test mass, kg")->check(kMassRange);
   command.add_option("--rotating-mass", options.rotating_mass_kg, "Mass that rotates, kg [3 % of --mass]")
       ->check(shown_range(0.0, 1e6));
@@ -268,7 +268,7 @@ void add_procedure_options(CLI::App& command, FitRoadLoadOptions& options) {
   command
       .add_option("--corrected-mass", options.corrected_mass_kg,
                   "Test mass TM to which a procedure corrects f0, kg [--mass]")
-      ->check(shown_range(1.0, 1e6));
+      ->check(shown_range(100.0, 1e6));
   command
       .add_option("--wheel-radius", options.wheel_radius_m,
                   "Dynamic radius of the torque-meter method, m [from the column wheel_speed_Hz]")
@@ -324,7 +324,7 @@ void add_fit_default_road_load(CLI::App& fit, Action& action) {
   const auto [command, options] = add_command<DefaultRoadLoadCommandOptions>(
       fit, action, "default-road-load", "Default road load of the WLTP, without a measurement",
       &default_road_load_command);
-  command->add_option("--mass", options->load.mass_kg, "Test mass, kg")->required()->check(shown_range(1.0, 1e6));
+  command->add_option("--mass", options->load.mass_kg, "Test mass, kg")->required()->check(shown_range(100.0, 1e6));
   command->add_option("--width", options->load.width_m, "Width of the vehicle, m")
       ->required()
       ->check(shown_range(0.5, 5.0));

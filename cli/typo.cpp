@@ -23,8 +23,20 @@ struct Call {
   }
 };
 
+/// How many words an option of the program itself takes, with its name; 0 where the word is none.
+std::size_t count_words_of_option(const CLI::App& app, const std::string& word) {
+  const CLI::Option* option = app.get_option_no_throw(word.substr(0, word.find('=')));
+  if (option == nullptr || word.rfind('-', 0) != 0) return 0;
+  const bool takes_next = option->get_items_expected_min() > 0 && word.find('=') == std::string::npos;
+  return takes_next ? 2 : 1;
+}
+
 Call read_call(const CLI::App& app, int argc, char** argv) {
   Call call{app, &app, {argv + 1, argv + argc}, app.get_name()};
+  while (call.next < call.words.size() && count_words_of_option(app, call.words[call.next]) > 0) {
+    call.next += count_words_of_option(app, call.words[call.next]);
+  }
+  call.next = std::min(call.next, call.words.size());
   for (; call.next < call.words.size(); ++call.next) {
     const CLI::App* found = find_subcommand(*call.called, call.words[call.next]);
     if (found == nullptr) break;

@@ -225,6 +225,16 @@ void check_reference_precision(RoadLoadProcedure& procedure) {
   }
 }
 
+void check_reference_speeds(RoadLoadProcedure& procedure) {
+  constexpr int kLowest_km_h = 20;
+  constexpr int kExtraHigh_km_h = 130;  // the highest speed of the WLTC of class 3 is 131.3 km/h
+  const std::vector<int>& speeds = procedure.reference.speeds;
+  const bool whole = speeds.back() <= kLowest_km_h && speeds.front() >= kExtraHigh_km_h;
+  procedure.checks.push_back({"reference speeds", whole ? CheckStatus::kPass : CheckStatus::kFail,
+                              fmt::format("{} to {} km/h", speeds.back(), speeds.front()),
+                              "20 to 130 km/h or more (class 3)", "UN GTR 15 Annex 4, 2.2"});
+}
+
 void doubt_units(RoadLoadProcedure& procedure) {
   // Assumed: rolling loss of a car at 50 km/h is 0.004 to 0.016 of its weight, and its drag area over mass and that
   // share is below 0.075 m2/kg. Speeds in mph that are taken for km/h divide f0 by 1.609, multiply f2 by it, and end

@@ -93,6 +93,8 @@ void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& o
 void finish_procedure(const RoadLoadProcedureOptions& options, RoadLoadProcedure& procedure);
 /// Fills `fitted` of the points, from `as_tested`.
 void put_fitted(RoadLoadProcedure& procedure);
+/// The lowest and the highest reference speed against those of the WLTP.
+void check_reference_speeds(RoadLoadProcedure& procedure);
 /// Pairs and statistical precision against the limits of the WLTP.
 void check_reference_precision(RoadLoadProcedure& procedure);
 

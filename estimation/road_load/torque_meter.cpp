@@ -139,6 +139,42 @@ MeanTorque calc_mean_torque(const TorqueMeasurement& at, double effective_mass_k
   return mean;
 }
 
+/// What a speed that is this share of its reference speed may be in.
+std::string guess_speed_unit(double share) {
+  constexpr double kKmPerMile = 1.609344;
+  constexpr double kNear = 0.03;
+  const auto is_near = [share](double wanted) { return std::abs(share / wanted - 1.0) < kNear; };
+  if (is_near(1.0 / kKmPerMile)) return "; speed_km_h looks as if it were in mph";
+  if (is_near(kKmPerMile)) return "; reference_km_h looks as if it were in mph";
+  if (is_near(1.0 / kKmhPerMs)) return "; speed_km_h looks as if it were in m/s";
+  return "";
+}
+
+/// Throws InputError where speeds or torques cannot be what their columns are named.
+void require_plausible(const std::string& path, const TorqueFile& file, const std::vector<MeanTorque>& means) {
+  constexpr double kMostSpeedError = 0.1;         // Assumed: five times the limit of the procedure
+  std::map<int, std::vector<double>> torques_Nm;  // of a reference speed; one run may go downhill
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const int reference_km_h = file.measurements[i].reference_km_h;
+    const double speed_km_h = kKmhPerMs * means[i].speed_m_s;
+    const double share = speed_km_h / reference_km_h;
+    if (std::abs(share - 1.0) > kMostSpeedError) {
+      throw InputError({"the mean speed is not near its reference speed" + guess_speed_unit(share), path, 0,
+                        "speed_km_h", fmt::format("{:.1f} at reference_km_h = {}", speed_km_h, reference_km_h),
+                        "a mean within 10 % of the reference speed; the procedure asks for 1 km/h or 2 %", ""});
+    }
+    torques_Nm[reference_km_h].push_back(means[i].torque_Nm);
+  }
+  for (const auto& [reference_km_h, values_Nm] : torques_Nm) {
+    const double mean_Nm = calc_mean(values_Nm);
+    if (mean_Nm > 0.0) continue;
+    throw InputError({"the wheel torque is not positive at a steady speed: is its sign reversed?", path, 0,
+                      "wheel_torque_Nm",
+                      fmt::format("{:.1f}, the mean at reference_km_h = {}", mean_Nm, reference_km_h),
+                      "a torque that drives the vehicle is positive", ""});
+  }
+}
+
 /// Speeds against those of reference, length and drift of the measurements.
 void check_measurements(const TorqueFile& file, const std::vector<MeanTorque>& means, RoadLoadProcedure& procedure) {
   constexpr double kLeast_s = 5.0;
@@ -166,8 +202,7 @@ void check_measurements(const TorqueFile& file, const std::vector<MeanTorque>& m
                               file.has_times ? fmt::format("{:.1f} s", shortest_s) : "no column time_s", ">= 5 s",
                               kTorqueClause});
   if (farthest > 1.0) {
-    procedure.warnings.push_back(fmt::format(
-        "a mean speed is {} from its reference speed: are speed_km_h and reference_km_h in km/h?", found_speed));
+    procedure.warnings.push_back(fmt::format("a mean speed is {} from its reference speed", found_speed));
   }
   if (!file.has_times) {
     procedure.warnings.push_back("no column time_s: torques are not corrected for a drift of the speed");
@@ -239,6 +274,7 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
     procedure.points.push_back(
         {runs[at.run].name, runs[at.run].heading, means.back().speed_m_s, means.back().torque_Nm, 0.0});
   }
+  require_plausible(path, file, means);
   std::map<int, double> speeds_m_s;
   for (const auto& [km_h, sum] : sums) speeds_m_s[km_h] = sum.first / sum.second;
   const PairRule rule{false, 1.0, "torques"};
@@ -247,6 +283,7 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   procedure.warnings.insert(procedure.warnings.end(), procedure.reference.warnings.begin(),
                             procedure.reference.warnings.end());
   check_measurements(file, means, procedure);
+  check_reference_speeds(procedure);
   check_reference_precision(procedure);
   TestedRoadLoad& tested = procedure.tested;
   tested.in_proportion_to_mass = false;

@@ -103,15 +103,6 @@ std::vector<ReferenceRun> list_reference_runs(const CoastdownData& data, const R
   return runs;
 }
 
-void check_reference_speeds(const RoadLoadProcedure& procedure, std::vector<RoadLoadCheck>& checks) {
-  constexpr int kExtraHigh_km_h = 130;  // the highest speed of the WLTC of class 3 is 131.3 km/h
-  const std::vector<int>& speeds = procedure.reference.speeds;
-  const bool whole = speeds.back() <= kLowestReference_km_h && speeds.front() >= kExtraHigh_km_h;
-  checks.push_back({"reference speeds", whole ? CheckStatus::kPass : CheckStatus::kFail,
-                    fmt::format("{} to {} km/h", speeds.back(), speeds.front()), "20 to 130 km/h or more (class 3)",
-                    "UN GTR 15 Annex 4, 2.2"});
-}
-
 void check_overlaps(RoadLoadProcedure& procedure) {
   constexpr double kMost_N = 10.0;
   constexpr double kMostShare = 0.05;
@@ -168,7 +159,7 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
         "no column wind_m_s: nothing is subtracted for the wind, which both headings have in f0 (f2 times its square)");
   }
   procedure.correction.wind_m_s = find_common_wind(file.data);
-  check_reference_speeds(procedure, procedure.checks);
+  check_reference_speeds(procedure);
   check_reference_precision(procedure);
   check_overlaps(procedure);
   finish_procedure(options, procedure);

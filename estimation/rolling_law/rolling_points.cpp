@@ -110,6 +110,7 @@ RollingTest read_rolling_test(const std::string& path, PressureTaken taken) {
   } else {
     test = read_csv_points(path);
   }
+  require_plausible_coefficient(path, test.points);
   test.warnings = doubt_points(test.points);
   return test;
 }
@@ -125,27 +126,26 @@ std::size_t count_copies(const std::vector<RollingPoint>& points) {
   return points.size() - seen.size();
 }
 
-std::optional<std::string> doubt_coefficient(const std::vector<RollingPoint>& points) {
-  constexpr double kLeast = 2e-3;  // Assumed: below it is no road tire; the best have 4 N/kN
-  constexpr double kMost = 30e-3;  // Assumed: of a cold tire at low pressure
+}  // namespace
+
+void require_plausible_coefficient(const std::string& path, const std::vector<RollingPoint>& points) {
+  constexpr double kLeast = 1.5e-3;  // Assumed: below it is no road tire; the best have 4 N/kN
+  constexpr double kMost = 30e-3;    // Assumed: of a cold tire at low pressure
+  if (points.empty()) return;
   std::vector<double> coefficients;
   for (const RollingPoint& point : points) coefficients.push_back(point.force_N / point.load_N);
   const auto middle = coefficients.begin() + static_cast<std::ptrdiff_t>(coefficients.size() / 2);
   std::nth_element(coefficients.begin(), middle, coefficients.end());
-  if (*middle >= kLeast && *middle <= kMost) return std::nullopt;
-  return fmt::format(
-      "the median of rolling resistance over load is {:.3g} N/kN, where tires have 4 to 15 N/kN: check "
-      "that load and rolling resistance are in N",
-      1e3 * *middle);
+  if (*middle >= kLeast && *middle <= kMost) return;
+  throw InputError({"rolling resistance over load is that of no tire: are both in N?", path, 0, "rolling_resistance_N",
+                    fmt::format("{:.3g} N/kN, the median of rolling_resistance_N / load_N", 1e3 * *middle),
+                    fmt::format("{:g} to {:g} N/kN; tires have 4 to 15", 1e3 * kLeast, 1e3 * kMost), ""});
 }
-
-}  // namespace
 
 std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
   constexpr double kMostCopies = 0.2;  // Assumed: of coarsely rounded readings, fewer agree by chance
   if (points.empty()) return {};
   std::vector<std::string> doubts;
-  if (const auto doubt = doubt_coefficient(points)) doubts.push_back(*doubt);
   const std::size_t copies = count_copies(points);
   if (static_cast<double>(copies) > kMostCopies * static_cast<double>(points.size())) {
     doubts.push_back(

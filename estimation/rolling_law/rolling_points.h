@@ -51,8 +51,11 @@ struct RollingTest {
 /// Checked  tests/estimation/rolling_law_test.cpp, tests/bad_input
 RollingTest read_rolling_test(const std::string& path, PressureTaken taken = PressureTaken::kSet);
 
-/// Doubts that hold for each of the fits: a coefficient of rolling resistance that no tire has (units mistaken), and
-/// points that are copies of others.
+/// Throws InputError where the median coefficient of rolling resistance is that of no tire: one of the two columns is in
+/// another unit, such as kgf.
+void require_plausible_coefficient(const std::string& path, const std::vector<RollingPoint>& points);
+
+/// Doubts that hold for each of the fits: points that are copies of others.
 std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points);
 
 /// How many values are different, where those within 2 % of the least of their group count as one.

@@ -39,7 +39,7 @@ TEST_CASE("help stands everywhere", "[fast]") {
   }
   CHECK_THAT(run_program("--help").out, Contains("--log debug|info|warning|error|off\n"));
   CHECK_THAT(run_program("man").out, Contains("debug|info|warning|error|off"));
-  CHECK_THAT(run_program("fit road-load --help").out, Contains("--mass FLOAT in [1 - 1e+06]\n"));
+  CHECK_THAT(run_program("fit road-load --help").out, Contains("--mass FLOAT in [100 - 1e+06]\n"));
 }
 
 TEST_CASE("help is a command as well, a list may be of one kind, and a file of one's own is described", "[fast]") {
@@ -69,6 +69,10 @@ TEST_CASE("usage errors name the nearest word and exit with 2", "[fast]") {
   const auto command = run_program("rnu iso_28580");
   CHECK(command.status == 2);
   CHECK_THAT(command.err, Contains("run"));
+  const auto after_option = run_program("--log debug rnu iso_28580");
+  CHECK(after_option.status == 2);
+  CHECK_THAT(after_option.err, Contains("unknown command 'rnu'") && Contains("nearest  run"));
+  CHECK_THAT(run_program("--log=debug rnu iso_28580").err, Contains("nearest  run"));
   CHECK(run_program("").status == 2);
   CHECK(run_program("run iso_28580").status == 2);
 }

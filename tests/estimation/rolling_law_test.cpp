@@ -193,12 +193,13 @@ TEST_CASE("points that do not decide the law are refused", "[fast]") {
   CHECK_THROWS_AS(fit_j2452(together), RunFailure);  // only alpha + beta is decided
 }
 
-TEST_CASE("a coefficient that no tire has is doubted aloud: units", "[fast]") {
-  CHECK(estimation::doubt_points(make_points()).empty());
-  std::vector<RollingPoint> in_kgf = make_points();
-  for (RollingPoint& point : in_kgf) point.load_N /= 9.81;
-  REQUIRE(estimation::doubt_points(in_kgf).size() == 1);
-  CHECK_THAT(estimation::doubt_points(in_kgf)[0], Catch::Contains("check that load and rolling resistance are in N"));
+TEST_CASE("a coefficient that no tire has is refused: units", "[fast]") {
+  CHECK_NOTHROW(estimation::require_plausible_coefficient("test.csv", make_points()));
+  for (const double load_factor : {1.0 / 9.81, 9.81}) {
+    std::vector<RollingPoint> mixed = make_points();
+    for (RollingPoint& point : mixed) point.load_N *= load_factor;
+    CHECK_THROWS_WITH(estimation::require_plausible_coefficient("test.csv", mixed), Catch::Contains("are both in N?"));
+  }
 }
 
 TEST_CASE("points that were copied are doubted aloud, a few that agree by chance are not", "[fast]") {

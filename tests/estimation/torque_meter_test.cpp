@@ -147,10 +147,34 @@ TEST_CASE("torque meter: precision, and what is wrong with a test", "[fast]") {
   CHECK_THROWS_WITH(evaluate_torques(write_torques(study)), Contains("fewer than 3 pairs"));
   study = {};
   study.speed_scale = 1.0 / 1.609344;
-  const RoadLoadProcedure mph = evaluate_torques(write_torques(study));
-  bool doubted = false;
-  for (const std::string& warning : mph.warnings) doubted = doubted || warning.find("km/h?") != std::string::npos;
-  CHECK(doubted);
+  CHECK_THROWS_WITH(evaluate_torques(write_torques(study)), Contains("speed_km_h looks as if it were in mph"));
+}
+
+TEST_CASE("torque meter: torques of the wrong sign are refused, those of one run downhill are not", "[fast]") {
+  const auto write = [](const std::vector<double>& torques_Nm) {
+    CsvWriter csv({"reference_km_h", "speed_km_h", "wheel_torque_Nm", "run", "heading"});
+    for (int run = 0; run < 6; ++run) {
+      for (const int km_h : {20, 50, 80, 110}) {
+        csv.add(static_cast<double>(km_h));
+        csv.add(static_cast<double>(km_h));
+        csv.add(torques_Nm[static_cast<std::size_t>(run)] + 0.01 * km_h * km_h);
+        csv.add(std::to_string(run + 1));
+        csv.add(std::string(run % 2 == 0 ? "+" : "-"));
+        csv.end_row();
+      }
+    }
+    return csv.take();
+  };
+  RoadLoadProcedureOptions options;
+  options.wheel_radius_m = 0.3;
+  CHECK_THROWS_WITH(evaluate_torques(write({-40.0, -41.0, -40.0, -41.0, -40.0, -41.0}), options),
+                    Contains("is its sign reversed?"));
+  const RoadLoadProcedure sloped = evaluate_torques(write({90.0, -10.0, 91.0, -11.0, 90.5, -10.5}), options);
+  CHECK(sloped.as_tested(0) == Approx(40.0).margin(0.5));
+  const auto reached = std::find_if(sloped.checks.begin(), sloped.checks.end(),
+                                    [](const RoadLoadCheck& check) { return check.name == "reference speeds"; });
+  REQUIRE(reached != sloped.checks.end());
+  CHECK(reached->status == CheckStatus::kFail);  // 110 km/h is not the highest of class 3
 }
 
 TEST_CASE("torque meter: without wheel speeds a radius is asked for", "[fast]") {
