@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "scenarios/common/drive_sections.h"
+#include "scenarios/common/energy_uncertainty.h"
 #include "scenarios/common/multi_cycle_energy.h"
 
 namespace rollrig::scenarios::drive_cycle {
@@ -118,11 +119,18 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   results.total = add_up(results.sections);
   find_economy(spec, results);
   warn_of_map(spec, layout, outcome);
+  std::vector<ReportedCycle> cycles;
+  if (results.consumption_J_per_m.has_value()) {
+    cycles.push_back({"", "", Json::json_pointer(), "consumption_Wh_per_km", results.range_m.has_value()});
+  }
+  outcome.make_measurement_model = [&spec, used = outcome.settings, cycles] {
+    return make_section_energy_model(spec, used, cycles);
+  };
   return results;
 }
 
 Scenario make() {
-  return make_vehicle_scenario(
+  Scenario scenario = make_vehicle_scenario(
       {"drive_cycle", "One drive cycle, such as WLTC or US06, once or several times, with consumption and range",
        "From soaked tires, the cycle as often as asked for, with a pause between two. Of each cycle, for one tire: "
        "energy of rolling resistance by the model and by the constant ISO coefficient, temperatures, mean coefficient; "
@@ -131,6 +139,8 @@ Scenario make() {
        "energy. On rig road a vehicle with [road_load] needs exactly that at the wheels.",
        "formats.md: drive cycles; phase scaling: docs/j1634.md"},
       "dyno_1m2", &plan, &evaluate);
+  scenario.has_uncertainty = true;
+  return scenario;
 }
 
 }  // namespace rollrig::scenarios::drive_cycle

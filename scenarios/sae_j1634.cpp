@@ -144,8 +144,11 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     results.economy = evaluate_economy(spec, layout, results.sections, settings.label_factor, outcome);
   }
   warn_of_map(spec, layout, outcome);
-  std::vector<std::string> cycles;
-  for (const CycleResult& cycle : results.economy.cycles) cycles.push_back(cycle.name);
+  std::vector<ReportedCycle> cycles;
+  for (const CycleResult& cycle : results.economy.cycles) {
+    const Json::json_pointer place = Json::json_pointer("/economy") / cycles.size();
+    cycles.push_back({cycle.name, cycle.name + "_", place, "dc_consumption_Wh_per_km", true});
+  }
   outcome.make_measurement_model = [&spec, used = outcome.settings, cycles] {
     return make_section_energy_model(spec, used, cycles);
   };

@@ -45,6 +45,10 @@ void DriveSection::visit(ResultSheet& visit) const {
                Column::kSecond},
         battery_J);
   visit(Result{"consumption_Wh_per_km", "", ".1f", "of it, per distance", Column::kSecond}, calc_consumption_J_per_m());
+  const std::optional<double> consumption_J_per_m = calc_consumption_J_per_m();
+  visit(Result{"consumption_mi_per_kWh", "", ".2f", "the same, as distance over energy", Column::kSecond},
+        consumption_J_per_m.has_value() && *consumption_J_per_m > 0.0 ? std::optional(1.0 / *consumption_J_per_m)
+                                                                      : std::nullopt);
 }
 
 double calc_battery_J(const rigs::VehicleFile& vehicle, const SectionReader& reader, double duration_s) {

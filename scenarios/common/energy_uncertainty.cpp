@@ -51,49 +51,55 @@ struct MeasuredEnergies {
 
 double find_SI(const Json& of, const char* key) { return unit_of_key(key).to_si(of[key].get<double>()); }
 
-MeasuredEnergies find_energies(const Json& result) {
+MeasuredEnergies find_energies(const Json& result, const std::vector<ReportedCycle>& cycles) {
   MeasuredEnergies found;
-  found.is_usable_given = result.value("usable_energy_from", "") == "battery";
+  found.is_usable_given = result.value("usable_energy_from", "battery") == "battery";
   for (const Json& section : result["sections"]) {
     found.battery_J += find_SI(section, "battery_energy_Wh");
     found.rolling_J += find_SI(section, "vehicle_rr_energy_Wh");
   }
-  for (const Json& cycle : result["economy"]) {
+  for (const ReportedCycle& reported : cycles) {
+    const Json& cycle = result.at(reported.place);
     const char* const recharge = "ac_consumption_Wh_per_km";
-    found.cycles.push_back({find_SI(cycle, "dc_consumption_Wh_per_km"), find_SI(cycle, "range_km"),
-                            cycle[recharge].is_null() ? 0.0 : find_SI(cycle, recharge)});
+    const bool has_recharge = cycle.contains(recharge) && !cycle[recharge].is_null();
+    found.cycles.push_back({find_SI(cycle, reported.consumption_key.c_str()),
+                            reported.has_range ? find_SI(cycle, "range_km") : 0.0,
+                            has_recharge ? find_SI(cycle, recharge) : 0.0});
   }
   return found;
 }
 
 /// The measurands of consumption and range of a cycle. With a battery, the recharge is one of them.
-void add_cycle(const std::string& cycle, bool has_battery, std::vector<estimation::Measurand>& measurands) {
-  measurands.push_back({fmt::format("consumption, {}, direct current", cycle), cycle + "_dc_consumption_Wh_per_km"});
-  measurands.push_back({fmt::format("range, {}", cycle), cycle + "_range_km"});
-  if (!has_battery) return;
-  measurands.push_back(
-      {fmt::format("consumption, {}, alternating current", cycle), cycle + "_ac_consumption_Wh_per_km"});
+void add_cycle(const ReportedCycle& cycle, bool has_battery, std::vector<estimation::Measurand>& measurands) {
+  const std::string of_cycle = cycle.name.empty() ? "" : ", " + cycle.name;
+  const auto add = [&](const std::string& name, const std::string& key) {
+    measurands.push_back({name, cycle.key_prefix + key});
+  };
+  add(fmt::format("consumption{}, direct current", of_cycle), cycle.consumption_key);
+  if (cycle.has_range) add("range" + of_cycle, "range_km");
+  if (has_battery) add(fmt::format("consumption{}, alternating current", of_cycle), "ac_consumption_Wh_per_km");
 }
 
 /// The values of the same measurands, as the meters read them.
-void add_cycle_values(const MeasuredEnergies& energies, const MeasuredEnergies::Cycle& cycle, double meter,
+void add_cycle_values(const MeasuredEnergies& energies, std::size_t place, const ReportedCycle& reported, double meter,
                       std::optional<double> recharge_meter, std::vector<double>& values) {
+  const MeasuredEnergies::Cycle& cycle = energies.cycles[place];
   values.push_back(meter * cycle.consumption_J_per_m);
-  values.push_back(energies.is_usable_given ? cycle.range_m / meter : cycle.range_m);
+  if (reported.has_range) values.push_back(energies.is_usable_given ? cycle.range_m / meter : cycle.range_m);
   if (recharge_meter.has_value()) values.push_back(*recharge_meter * meter * cycle.recharge_J_per_m);
 }
 
 }  // namespace
 
 MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& settings,
-                                           const std::vector<std::string>& cycles) {
+                                           const std::vector<ReportedCycle>& cycles) {
   MeasurementModel model;
   model.measurands = {{"energy of the battery, all sections", "battery_energy_Wh"}};
   if (has_tire_loss(spec)) {
     model.measurands.push_back({"energy of rolling resistance, all tires and sections", "vehicle_rr_energy_Wh"});
   }
   const bool has_battery = spec.vehicle->battery.has_value();
-  for (const std::string& cycle : cycles) add_cycle(cycle, has_battery, model.measurands);
+  for (const ReportedCycle& cycle : cycles) add_cycle(cycle, has_battery, model.measurands);
   const auto setting = [&settings](const char* key) { return unit_of_key(key).to_si(settings[key].get<double>()); };
   const double mass_kg = spec.vehicle->body.mass_kg;
   model.inputs = {
@@ -112,15 +118,17 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
   if (has_battery) {
     model.inputs.push_back(
         make_assumed_input("gain of the recharge meter", "gain_percent", 1.0, kRechargeGainLimit, "0.5 %"));
-    model.left_out.push_back(
-        "MPGe: its relative uncertainty is that of the consumption with alternating current; of a label range, that of "
-        "the range");
+    if (cycles.size() > 1)
+      model.left_out.push_back(
+          "MPGe: its relative uncertainty is that of the consumption with alternating current; of a label range, that "
+          "of "
+          "the range");
     model.left_out.push_back(
         "usable battery energy and energy of the recharge: they are taken from the vehicle file without an "
         "uncertainty");
   }
   model.left_out.push_back("the setting of the dynamometer, the efficiency of the powertrain, how the driver follows");
-  model.evaluate = [&spec, numbers](const std::vector<double>& x) {
+  model.evaluate = [&spec, numbers, cycles](const std::vector<double>& x) {
     RunSpec own = spec;
     own.fidelity = Fidelity::kQuasiStatic;
     own.sensors.reset();
@@ -129,13 +137,13 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
     set_number(own, "pressure_kPa", x[energy_input::kPressure]);
     const auto count = static_cast<Eigen::Index>(numbers->keys.size());
     numbers->move(Eigen::Map<const Eigen::VectorXd>(x.data() + energy_input::kTire, count), own.tire);
-    const MeasuredEnergies energies = find_energies(run_scenario(own, {}).result);
+    const MeasuredEnergies energies = find_energies(run_scenario(own, {}).result, cycles);
     std::vector<double> results{x[energy_input::kMeter] * energies.battery_J};
     if (has_tire_loss(own)) results.push_back(energies.rolling_J);
     const std::optional<double> recharge_meter =
         own.vehicle->battery.has_value() ? std::optional(x.back()) : std::nullopt;
-    for (const MeasuredEnergies::Cycle& cycle : energies.cycles) {
-      add_cycle_values(energies, cycle, x[energy_input::kMeter], recharge_meter, results);
+    for (std::size_t i = 0; i < cycles.size(); ++i) {
+      add_cycle_values(energies, i, cycles[i], x[energy_input::kMeter], recharge_meter, results);
     }
     return results;
   };

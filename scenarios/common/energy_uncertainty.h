@@ -9,9 +9,17 @@
 
 namespace rollrig::scenarios {
 
-/// Energy of the battery and of rolling resistance, over all sections of result.json; of a multi-cycle test of SAE J1634
-/// also consumption and range of the `cycles` (city, highway, combined), and with a battery the consumption of
-/// alternating current. Each evaluation simulates the test again,
+/// Where result.json has consumption and range of a cycle.
+struct ReportedCycle {
+  std::string name;        // "city"; empty where the test has one kind of cycle
+  std::string key_prefix;  // of the keys of its measurands: "city_"
+  Json::json_pointer place;
+  std::string consumption_key;  // direct current
+  bool has_range = false;
+};
+
+/// Energy of the battery and of rolling resistance, over all sections of result.json; consumption of the `cycles`, their
+/// range, and with a battery their consumption of alternating current. Each evaluation simulates the test again,
 /// quasi-static and without sensors.
 /// Equation  E = g E_sim(mass, T_amb, p, x_0 + S L z)
 /// Symbols   g gain of the energy meter, for the battery and the consumption; a range is over 1/g where the
@@ -24,6 +32,6 @@ namespace rollrig::scenarios {
 /// Source    uncertainties of the tire file; others are assumed, and marked so
 /// Checked   tests/scenarios/energy_uncertainty_test.cpp
 estimation::MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& settings,
-                                                       const std::vector<std::string>& cycles);
+                                                       const std::vector<ReportedCycle>& cycles);
 
 }  // namespace rollrig::scenarios

@@ -173,7 +173,7 @@ RunSpec read_run_spec(const ConfigTable& table, const std::string& base_folder) 
   spec.fidelity = read_fidelity(reader, *spec.scenario);
   const bool is_combined = reader.text_or("baseline", "combined", {"combined", "constant_rrc"}) == "combined";
   spec.baseline = is_combined ? models::Baseline::kCombined : models::Baseline::kConstantRrc;
-  spec.seed = static_cast<std::uint64_t>(reader.count({"seed", between(0.0, 2147483647.0), "random seed", 1.0}));
+  spec.seed = static_cast<std::uint64_t>(reader.count({"seed", between(0.0, 9007199254740991.0), "random seed", 1.0}));
   spec.sample_interval_s = reader.number({"sample_interval_s", between(0.01, 60.0), "between rows", 1.0});
   spec.tolerance_factor = reader.number({"tolerance_factor", between(1e-3, 1e3), "on all tolerances", 1.0});
   spec.sensors = read_run_sensors(reader, base_folder, spec);

@@ -75,6 +75,37 @@ TEST_CASE("the energies of the budget are those of the result, and move as in si
   CHECK(moved[7] / 1e3 == Approx(other.result["economy"][2]["range_km"].get<double>()).epsilon(1e-9));
 }
 
+TEST_CASE("consumption and range of a drive cycle have a budget, and move as in simulations", "[fast]") {
+  const std::vector<std::string> settings{"cycle=udds", "repetitions=2"};
+  scenarios::RunSpec spec = tests::make_spec("drive_cycle", "a50", settings, "quasi_static");
+  const MeasurementModel plain = scenarios::run_scenario(spec, {}).make_measurement_model();
+  REQUIRE(plain.measurands.size() == 3);  // no range without a battery
+  CHECK(plain.measurands[2].key == "consumption_Wh_per_km");
+  spec.vehicle->battery = rigs::VehicleBattery{};
+  spec.vehicle->battery->usable_J = 60.0 * 3.6e6;
+  spec.vehicle->battery->charging_efficiency = 0.9;
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+  const MeasurementModel model = outcome.make_measurement_model();
+  REQUIRE(model.measurands.size() == 5);
+  CHECK(model.measurands[3].key == "range_km");
+  CHECK(model.measurands[4].key == "ac_consumption_Wh_per_km");
+  std::vector<double> x;
+  for (const UncertainInput& input : model.inputs) x.push_back(input.value);
+  const std::vector<double> now = model.evaluate(x);
+  CHECK(now[2] / 3.6 == Approx(outcome.result["consumption_Wh_per_km"].get<double>()).epsilon(1e-9));
+  CHECK(now[3] / 1e3 == Approx(outcome.result["range_km"].get<double>()).epsilon(1e-9));
+  CHECK(now[4] / 3.6 == Approx(outcome.result["ac_consumption_Wh_per_km"].get<double>()).epsilon(1e-9));
+  // The usable energy is the file's: a meter that reads 1 % high makes the range short.
+  x[0] = 1.01;
+  CHECK(model.evaluate(x)[3] == Approx(now[3] / 1.01));
+  x[0] = 1.0;
+  x[1] = 2250.0;
+  spec.vehicle->body.mass_kg = 2250.0;
+  const Json heavy = scenarios::run_scenario(spec, {}).result;
+  CHECK(model.evaluate(x)[3] / 1e3 == Approx(heavy["range_km"].get<double>()).epsilon(1e-9));
+  CHECK(model.evaluate(x)[3] < 0.995 * now[3]);
+}
+
 TEST_CASE("the numbers of a tire file move together by their correlation", "[slow]") {
   // Two numbers of the loss with correlation 0.58: the variance of the energy is c R c, and not the sum of squares.
   const std::vector<std::string> settings{"mid_min=5", "end_min=5"};
