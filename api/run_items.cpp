@@ -68,7 +68,33 @@ std::vector<std::string> RunItems::find_usual_values() const {
 void RunItems::check_briefly(bool has_same_assets) const {
   const std::vector<std::string> values = find_usual_values();
   check_at(values);
-  if (!has_same_assets) carry_out_quickly(read(values, 1));  // some files are read only then
+  if (has_same_assets) return;
+  check_words();
+  carry_out_quickly(read(values, 1));  // some files are read only then
+}
+
+void RunItems::check_words() const {
+  if (!is_list_) {
+    const std::vector<std::string> medians = find_usual_values();
+    for (std::size_t f = 0; f < factors_.size(); ++f) {
+      for (const std::string& value : factors_[f].values) {
+        if (parse_number(value).has_value()) continue;
+        std::vector<std::string> values = medians;
+        values[f] = value;
+        check_at(values);
+      }
+    }
+    return;
+  }
+  std::set<std::string> words;
+  for (std::size_t item = 0; item < count(); ++item) {
+    const std::vector<std::string> values = calc_values(item);
+    bool has_new_word = false;
+    for (const std::string& value : values) {
+      if (!parse_number(value).has_value() && words.insert(value).second) has_new_word = true;
+    }
+    if (has_new_word) check_at(values);
+  }
 }
 
 void RunItems::check_at(const std::vector<std::string>& values) const {
@@ -77,14 +103,8 @@ void RunItems::check_at(const std::vector<std::string>& values) const {
 }
 
 void RunItems::check_list() const {
-  std::set<std::string> words;  // such as names of tires, each of which stands for a file
   for (std::size_t item = 0; item < count(); ++item) {
-    const std::vector<std::string> values = calc_values(item);
-    bool has_new_word = false;
-    for (const std::string& value : values) {
-      if (!parse_number(value).has_value() && words.insert(value).second) has_new_word = true;
-    }
-    if (count() <= kMostChecked || has_new_word || item == 0 || item + 1 == count()) check_at(values);
+    if (count() <= kMostChecked || item == 0 || item + 1 == count()) check_at(calc_values(item));
   }
 }
 
@@ -96,15 +116,6 @@ void RunItems::check_combinations() const {
     for (std::size_t item = 0; count() <= kMostChecked && item < count(); ++item) check_at(calc_values(item));
     check_at(calc_values(0));
     check_at(calc_values(count() - 1));
-  }
-  const std::vector<std::string> medians = find_usual_values();
-  for (std::size_t f = 0; f < factors_.size(); ++f) {
-    for (const std::string& value : factors_[f].values) {
-      if (parse_number(value).has_value()) continue;
-      std::vector<std::string> values = medians;
-      values[f] = value;
-      check_at(values);
-    }
   }
 }
 

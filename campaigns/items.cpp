@@ -154,7 +154,7 @@ std::uint64_t ItemList::calc_seed(std::size_t item, std::uint64_t campaign_seed)
 
 std::uint64_t calc_item_seed(std::uint64_t campaign_seed, std::size_t item) {
   const std::string hash = calc_sha256(fmt::format("seed {} item {}", campaign_seed, item));
-  return std::strtoull(hash.substr(0, 8).c_str(), nullptr, 16) >> 1U;
+  return std::strtoull(hash.substr(0, 14).c_str(), nullptr, 16) >> 3U;
 }
 
 /// Writes the number of items of the results file into the progress file, at most once a second, and removes the

@@ -53,7 +53,8 @@ struct CampaignFolder {
   std::vector<std::string> list_files() const;
 };
 
-/// The seed of an item: the first 31 bits of SHA-256 over the campaign's seed and the item.
+/// The seed of an item: the first 53 bits of SHA-256 over the campaign's seed and the item, so that
+/// a double, as in JSON and .mat, holds it.
 std::uint64_t calc_item_seed(std::uint64_t campaign_seed, std::size_t item);
 
 /// How far a campaign is.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 #include "sim/core/error.h"
@@ -24,12 +25,46 @@ struct Launcher {
   bool is_for_mpi;   // its processes can talk to each other over MPI
 };
 
-constexpr std::array<Launcher, 4> kLaunchers{{
+constexpr std::array<Launcher, 7> kLaunchers{{
     {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", true},  // mpirun of Open MPI
     {"PMI_RANK", "PMI_SIZE", true},                          // mpirun of MPICH; srun --mpi=pmi2
+    {"MV2_COMM_WORLD_RANK", "MV2_COMM_WORLD_SIZE", true},    // mpirun_rsh of MVAPICH
+    {"JSM_NAMESPACE_RANK", "JSM_NAMESPACE_SIZE", true},      // jsrun of IBM
+    {"FLUX_TASK_RANK", "FLUX_JOB_SIZE", false},              // flux run
     {"PMIX_RANK", nullptr, true},                            // srun --mpi=pmix, of which the next line says the size
     {"SLURM_PROCID", "SLURM_STEP_NUM_TASKS", false},         // the latter is set by srun alone
 }};
+
+/// A job array whose tasks are told their number, and not how many there are.
+struct UncountedArray {
+  const char* task;
+  const char* means_none;  // value outside of an array
+};
+
+constexpr std::array<UncountedArray, 3> kUncountedArrays{{
+    {"PBS_ARRAY_INDEX", ""},  // PBS Professional
+    {"PBS_ARRAYID", ""},      // Torque
+    {"LSB_JOBINDEX", "0"},    // LSF
+}};
+
+/// Throws InputError where this process is one of several of which it cannot know the number.
+void refuse_uncounted(const Environment& environment, bool is_process_counted) {
+  const auto refuse = [](const char* name, const char* value) {
+    throw InputError({fmt::format("the variable {} says which of several processes this one is, and none says how many "
+                                  "there are",
+                                  name),
+                      "environment", 0, name, value,
+                      fmt::format("--shard $I/N, I from 1 by ${} and N the number of processes", name), ""});
+  };
+  for (const UncountedArray& array : kUncountedArrays) {
+    const char* task = environment(array.task);
+    if (task != nullptr && std::string(task) != array.means_none) refuse(array.task, task);
+  }
+  for (const char* rank : {"PMIX_RANK", "PALS_RANKID"}) {  // the latter of HPE's mpiexec
+    const char* number = environment(rank);
+    if (number != nullptr && !is_process_counted) refuse(rank, number);
+  }
+}
 
 /// A variable's whole number, none where it is not set. Grid Engine sets those of a job without an array to
 /// "undefined".
@@ -83,15 +118,21 @@ std::optional<Part> find_array_part(const Environment& environment) {
   return std::nullopt;
 }
 
+/// The number that digits alone write; 0 where there is anything else, or too many of them.
+std::size_t read_digits(const std::string& text) {
+  std::size_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && stop == end ? number : 0;
+}
+
 }  // namespace
 
 Part read_part(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  const std::optional<double> part = parse_number(text.substr(0, slash));
-  const std::optional<double> parts = slash == std::string::npos ? std::nullopt : parse_number(text.substr(slash + 1));
-  const bool is_share = part.has_value() && parts.has_value() && is_count(*part) && is_count(*parts) && *part >= 1.0 &&
-                        *part <= *parts && *parts <= kMostParts;
-  if (is_share) return {static_cast<std::size_t>(*part), static_cast<std::size_t>(*parts)};
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::size_t part = read_digits(text.substr(0, slash));
+  const std::size_t parts = slash < text.size() ? read_digits(text.substr(slash + 1)) : 0;
+  if (part >= 1 && part <= parts && static_cast<double>(parts) <= kMostParts) return {part, parts};
   throw InputError({fmt::format("--shard '{}' is no part", text), "command line", 0, "--shard", text,
                     fmt::format("I/N with 1 <= I <= N <= {:.0f}, as 3/10", kMostParts), ""});
 }
@@ -121,6 +162,7 @@ bool is_started_for_mpi(const Environment& environment) {
 std::optional<Part> find_part(const Environment& environment) {
   const std::optional<Part> array = find_array_part(environment);
   const std::optional<Part> process = find_process_part(environment);
+  refuse_uncounted(environment, process.has_value());
   if (!array.has_value() || !process.has_value()) return array.has_value() ? array : process;
   return make_part("SLURM_ARRAY_TASK_ID", (array->number - 1) + array->count * (process->number - 1) + 1,
                    array->count * process->count);

@@ -27,10 +27,11 @@ using Environment = std::function<const char*(const char*)>;
 
 /// The part that a batch system or an MPI launcher gives this process: of a job array (SLURM_ARRAY_TASK_ID with _MIN,
 /// _MAX, _STEP, _COUNT; SGE_TASK_ID with _FIRST, _LAST, _STEPSIZE), of the processes of one launcher (SLURM_PROCID with
-/// SLURM_STEP_NUM_TASKS; OMPI_COMM_WORLD_RANK, PMI_RANK with _SIZE), or of both: each task of the array then divides
+/// SLURM_STEP_NUM_TASKS; OMPI_COMM_WORLD_RANK and others with _SIZE), or of both: each task of the array then divides
 /// its part among its processes. None where the process was started by itself.
 /// Source   sbatch(1), srun(1), mpirun(1), qsub(1)
-/// Errors   InputError: a variable that is no number, a number beyond what it counts, a job array with gaps
+/// Errors   InputError: a variable that is no number, a number beyond what it counts, a job array with gaps, a process
+///          that is told its number and not how many there are (PBS_ARRAY_INDEX, LSB_JOBINDEX, PMIX_RANK)
 std::optional<Part> find_part(const Environment& environment);
 /// Of the processes that one launcher has started alone.
 std::optional<Part> find_process_part(const Environment& environment);

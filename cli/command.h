@@ -94,7 +94,7 @@ inline void add_uncertainty_options(CLI::App& command, UncertaintyOptions& optio
   command.add_option("--monte-carlo", options.monte_carlo_trials,
                      "Number of trials of the Monte Carlo method beside the budget (GUM Supplement 1) [none]");
   if (with_seed) {
-    constexpr std::int64_t kMostSeed = 2147483647;  // as that of a run
+    constexpr std::int64_t kMostSeed = 9007199254740991;  // as that of a run: 2^53 - 1
     command.add_option("--seed", options.seed, "Seed of the Monte Carlo trials [1]")
         ->check(in_range(std::int64_t{0}, kMostSeed));
   }

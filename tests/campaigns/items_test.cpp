@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "campaigns/store.h"
 #include "include/rollrig/error.h"
@@ -142,7 +143,10 @@ TEST_CASE("files of others are neither adopted nor removed", "[fast]") {
 TEST_CASE("items have seeds of their own, which no split changes", "[fast]") {
   CHECK(calc_item_seed(1, 0) != calc_item_seed(1, 1));
   CHECK(calc_item_seed(1, 0) != calc_item_seed(2, 0));
-  CHECK(calc_item_seed(1, 0) < (std::uint64_t{1} << 31U));
+  std::set<std::uint64_t> seeds;
+  for (std::size_t item = 0; item < 100000; ++item) seeds.insert(calc_item_seed(1, item));
+  CHECK(seeds.size() == 100000);
+  CHECK(*seeds.rbegin() < (std::uint64_t{1} << 53U));
 }
 
 TEST_CASE("a file of a process that was killed as it made it is empty", "[fast]") {

@@ -43,7 +43,8 @@ void require_partition(const std::vector<Part>& parts) {
 TEST_CASE("a part is I of N", "[fast]") {
   CHECK(read_part("3/10").number == 3);
   CHECK(read_part("3/10").count == 10);
-  for (const char* text : {"", "3", "0/3", "4/3", "1/0", "a/b", "1.5/3", "1/", "/2", "1/2/3", "-1/3", "1/1e99"}) {
+  for (const char* text : {"", "3", "0/3", "4/3", "1/0", "a/b", "1.5/3", "1/", "/2", "1/2/3", "-1/3", "1/1e99", "1.0/2",
+                           "1e0/2", "+1/2", " 1/2"}) {
     CHECK_THROWS_AS(read_part(text), rollrig::InputError);
   }
 }
@@ -72,6 +73,17 @@ TEST_CASE("a process may use MPI where a launcher of MPI has started it", "[fast
   REQUIRE(find_in(pmix).has_value());
   CHECK(find_in(pmix)->number == 2);
   CHECK(find_in(pmix)->count == 2);
+}
+
+TEST_CASE("a process that is told its number alone is refused, and the message says how to share", "[fast]") {
+  for (const char* name : {"PBS_ARRAY_INDEX", "PBS_ARRAYID", "LSB_JOBINDEX", "PMIX_RANK", "PALS_RANKID"}) {
+    INFO(name);
+    CHECK_THROWS_WITH(find_in({{name, "3"}}), Catch::Contains(std::string("--shard $I/N, I from 1 by $") + name));
+  }
+  CHECK(!find_in({{"LSB_JOBINDEX", "0"}}).has_value());  // a job of LSF that is no array
+  // Each task of the array would divide all items among its processes, as the others do.
+  CHECK_THROWS_AS(find_in({{"PBS_ARRAY_INDEX", "3"}, {"PMI_RANK", "0"}, {"PMI_SIZE", "2"}}), rollrig::InputError);
+  CHECK(find_in({{"FLUX_TASK_RANK", "3"}, {"FLUX_JOB_SIZE", "8"}})->number == 4);
 }
 
 TEST_CASE("the tasks of a job array have all items once", "[fast]") {

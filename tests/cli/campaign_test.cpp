@@ -309,6 +309,23 @@ TEST_CASE("a campaign reads the files that it was begun with, and no others", "[
   CHECK_THAT(run_to_end("campaign status c", at), !Catch::Contains("failed"));
 }
 
+TEST_CASE("a tire that another assets folder lacks stops a campaign, and is no failed item", "[fast]") {
+  namespace fs = std::filesystem;
+  const TemporaryFolder at;
+  const std::string assets = at.file("assets");
+  fs::copy(std::string(ROLLRIG_SOURCE_DIR) + "/assets", assets, fs::copy_options::recursive);
+  fs::copy_file(assets + "/tires/a50.toml", assets + "/tires/own_tire.toml");
+  const std::string use = "ROLLRIG_ASSETS=" + assets;
+  run_to_end("campaign new c iso_28580 --fidelity quasi_static --vary tire=a40,a50,own_tire --vary load_N=5000,5400",
+             at, use);
+  const ProgramResult result = run_program("campaign run c", at.path());
+  INFO(result.err);
+  CHECK(result.status == 2);
+  CHECK_THAT(result.err, Catch::Contains("own_tire"));
+  run_to_end("campaign run c", at, use);
+  CHECK_THAT(run_to_end("campaign status c", at), Catch::Contains("6 of 6 items done") && !Catch::Contains("failed"));
+}
+
 TEST_CASE("results of a campaign are not overwritten by what a command writes", "[fast]") {
   const TemporaryFolder at;
   run_to_end(std::string("campaign new c ") + kRun + " --vary load_N=5000,5400", at);
