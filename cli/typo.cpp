@@ -18,7 +18,9 @@ struct Call {
 
   /// The word in place of a subcommand, where one is wanted; otherwise nothing.
   std::string find_unknown_command() const {
-    const bool wants_command = !list_subcommands(*called).empty();
+    const bool takes_words =
+        !called->get_options([](const CLI::Option* option) { return option->get_positional(); }).empty();
+    const bool wants_command = !takes_words && !list_subcommands(*called).empty();
     return wants_command && next < words.size() && words[next][0] != '-' ? words[next] : "";
   }
 };

@@ -127,8 +127,11 @@ ReportSection make_iso_results(const RunSpec& spec, const ReportValues& values) 
                    values.field("Coefficient at 25 °C and on the 2 m drum", "/result/rrc_25degC_2m_N_per_kN", ".3f"),
                    make_field("  temperature coefficient K_t", fmt::format("{:.4g} 1/°C", coefficient_per_K))}};
   if (cycles > 1) {
-    form.fields.push_back(values.field("Mean over the cycles", "/result/rrc_cycles_mean_N_per_kN", ".3f"));
-    form.fields.push_back(values.field("Standard deviation over the cycles", "/result/rrc_cycles_sd_N_per_kN", ".3f"));
+    form.fields.push_back(
+        values.field("Mean of the cycles after the first", "/result/rrc_cycles_mean_N_per_kN", ".3f"));
+    if (values.has("/result/rrc_cycles_sd_N_per_kN")) {
+      form.fields.push_back(values.field("  their standard deviation", "/result/rrc_cycles_sd_N_per_kN", ".3f"));
+    }
   }
   if (values.has("/uncertainty")) {
     form.fields.push_back({"Expanded uncertainty (95 %) at 25 °C and on the 2 m drum",

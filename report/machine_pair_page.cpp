@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/output/machine_pair_output.h"
 #include "diagnosis/output/summary.h"
@@ -101,6 +102,7 @@ Block make_pair_tiles(const PairFindings& findings) {
     return fmt::format("{:+.3f} +- {:.3f}", at.value_N_per_kN, 0.5 * (at.high_95_N_per_kN - at.low_95_N_per_kN));
   };
   const bool shows_none = findings.difference.low_95_N_per_kN < 0.0 && findings.difference.high_95_N_per_kN > 0.0;
+  if (!std::isfinite(findings.difference.value_N_per_kN)) return make_tiles(tiles);
   tiles.push_back(
       {"RRc on A minus RRc on B",
        show(findings.difference),
@@ -149,9 +151,11 @@ Page make_machine_pair_page(const PairFindings& findings) {
   verdict.blocks.push_back(make_lead(tone, capitalized(diagnosis::describe_pair_verdict(findings)) + "."));
   if (!findings.warnings.empty()) verdict.blocks.push_back(make_warnings(findings.warnings));
   page.add(std::move(verdict));
-  Section rrc{"Rolling resistance coefficient", "By how much the machines differ, and what remains"};
-  rrc.blocks.push_back(make_rrc_bars(findings));
-  page.add(std::move(rrc));
+  if (std::isfinite(findings.difference.value_N_per_kN)) {
+    Section rrc{"Rolling resistance coefficient", "By how much the machines differ, and what remains"};
+    rrc.blocks.push_back(make_rrc_bars(findings));
+    page.add(std::move(rrc));
+  }
   Section causes{"Effects in which they may differ"};
   if (!findings.causes.empty()) causes.blocks.push_back(make_table(diagnosis::make_difference_table(findings)));
   causes.blocks.push_back(make_probability_bars(findings));

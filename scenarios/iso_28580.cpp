@@ -1,7 +1,6 @@
 /// ISO 28580: the whole rolling-resistance test of one tire, as in §3.2.3.
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "models/tire/conversion_laws.h"
 #include "models/tire/label_class.h"
@@ -83,8 +82,10 @@ struct Results {
     visit(Result{"tire_file.difference_percent", "", "+.2f", "of rrc_25degC_2m_N_per_kN from it"}.or_left_out(),
           calc_difference_to_file());
     visit(ResultList{"cycles", "Cycles", "every cycle, when there are several", kCycleWindows, true}, cycles);
-    visit(Result{"rrc_cycles_mean_N_per_kN", "", ".3f", "mean of RRc over the cycles"}.or_left_out(), mean_rrc);
-    visit(Result{"rrc_cycles_sd_N_per_kN", "", ".3f", "sample standard deviation of RRc over the cycles"}.or_left_out(),
+    visit(Result{"rrc_cycles_mean_N_per_kN", "", ".3f", "mean of RRc over the cycles after the first"}.or_left_out(),
+          mean_rrc);
+    visit(Result{"rrc_cycles_sd_N_per_kN", "", ".3f", "its sample standard deviation, of two cycles or more"}
+              .or_left_out(),
           rrc_sd);
     visit(JointLine{"Load", "{load_N}"});
     visit(JointLine{"Speed", "{speed_km_h}"});
@@ -105,8 +106,11 @@ struct Results {
     }
     visit(JointLine{"  tire file says", "{tire_file.rrc_N_per_kN}, difference {tire_file.difference_percent}"});
     visit_label_lines(visit);
-    visit(
-        JointLine{"RRc of all cycles", "{rrc_cycles_mean_N_per_kN} +- {rrc_cycles_sd_N_per_kN} (standard deviation)"});
+    if (mean_rrc.has_value()) {
+      visit(JointLine{"RRc of cycles after the first",
+                      rrc_sd.has_value() ? "{rrc_cycles_mean_N_per_kN} +- {rrc_cycles_sd_N_per_kN} (standard deviation)"
+                                         : "{rrc_cycles_mean_N_per_kN}"});
+    }
     visit_headlines(visit);
   }
 
@@ -181,13 +185,15 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   return program;
 }
 
-/// Mean and sample standard deviation of RRc over the cycles.
-std::pair<double, double> calc_repeatability(const std::vector<Cycle>& cycles) {
-  double mean = 0.0;
-  for (const Cycle& cycle : cycles) mean += cycle.rrc / static_cast<double>(cycles.size());
-  double squares = 0.0;
-  for (const Cycle& cycle : cycles) squares += (cycle.rrc - mean) * (cycle.rrc - mean);
-  return {mean, cycles.size() > 1 ? std::sqrt(squares / static_cast<double>(cycles.size() - 1)) : 0.0};
+/// Mean and sample standard deviation of RRc over the measurement cycles: all but the first, in which the tire is
+/// warmer. The standard deviation takes two of them.
+void put_repeatability(const std::vector<Cycle>& cycles, Results& results) {
+  const auto count = static_cast<double>(cycles.size() - 1);
+  double mean = 0.0, squares = 0.0;
+  for (std::size_t i = 1; i < cycles.size(); ++i) mean += cycles[i].rrc / count;
+  for (std::size_t i = 1; i < cycles.size(); ++i) squares += (cycles[i].rrc - mean) * (cycles[i].rrc - mean);
+  results.mean_rrc = mean;
+  if (count > 1.0) results.rrc_sd = std::sqrt(squares / (count - 1.0));
 }
 
 /// The pressure after the check, against what was set: the standard asks to verify it.
@@ -303,15 +309,15 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   results.pressure_set_Pa = *settings.conditions.pressure_Pa;
   results.pressure_verified_Pa = find_verified_pressure_Pa(outcome.recording);
   if (cycles.size() > 1) {
-    std::tie(results.mean_rrc, results.rrc_sd) = calc_repeatability(cycles);
+    put_repeatability(cycles, results);
     results.cycles = cycles;
   }
   if (spec.tire.iso_28580.has_value()) results.tire_file_rrc = spec.tire.iso_28580->rrc;
   constexpr double kTooShort = 0.02;  // Assumed: more than tires of class C1 lack after the standard's warm-up
   if (std::abs(results.cycle.unsettled.value_or(0.0)) > kTooShort) {
-    outcome.warnings.push_back(
-        fmt::format("RRc is {:.1f} % away from that in steady state: warm_up_min is too short for this tire",
-                    1e2 * std::abs(*results.cycle.unsettled)));
+    outcome.warnings.push_back(fmt::format(
+        "RRc is {:.1f} % away from that in steady state: {} is too short for this tire",
+        1e2 * std::abs(*results.cycle.unsettled), settings.measurement_cycles > 0 ? "measurement_min" : "warm_up_min"));
   }
   for (const std::string& doubt : spec.tire.list_class_doubts()) outcome.warnings.push_back(doubt);
   if (!models::is_ambient_correction_valid(ambient_K)) {

@@ -107,8 +107,8 @@ std::string describe_pair_verdict(const PairFindings& findings) {
     case PairVerdict::kAgree: {
       const RrcEstimate& of = findings.difference;
       const double within = std::max(std::abs(of.low_95_N_per_kN), std::abs(of.high_95_N_per_kN));
-      return fmt::format("they agree, probability {}: within {:.2f} N/kN",
-                         show_probability(probability_in(findings, "agree")), within);
+      return fmt::format("they agree, probability {}{}", show_probability(probability_in(findings, "agree")),
+                         std::isfinite(within) ? fmt::format(": within {:.2f} N/kN", within) : "");
     }
     case PairVerdict::kExplained:
       return fmt::format("they differ in {}, probability {} (agree {}, unknown {})",
@@ -139,7 +139,9 @@ std::string format_pair(const PairFindings& findings) {
       pair_line("Machines", fmt::format("A {} ({}), B {} ({}), tire {}", findings.machines[0], findings.sets[0],
                                         findings.machines[1], findings.sets[1], findings.tire));
   text += pair_line("Verdict", describe_pair_verdict(findings));
-  text += pair_line("RRc, A less B", show_rrc(findings.difference) + " as measured");
+  text += pair_line("RRc, A less B", std::isfinite(findings.difference.value_N_per_kN)
+                                         ? show_rrc(findings.difference) + " as measured"
+                                         : "unknown: one of the machines has no constant speed under load");
   const bool is_named = findings.verdict == PairVerdict::kExplained;
   if (is_named && findings.remaining.has_value()) {
     text += pair_line("  remaining", show_rrc(*findings.remaining) + " with the effect");

@@ -3,85 +3,115 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include <boost/math/distributions/students_t.hpp>
 
 #include "diagnosis/kinds/measurement_kind.h"
+#include "measurements/sample_selection.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The force readings of one run.
-struct ForceSeries {
-  const Series* series = nullptr;
-  std::size_t machine = 0;
-  double newtons_per_SI = 1.0;
-  std::vector<double> load_N;       // of each block
-  std::vector<bool> is_in_skim;     // likewise
-  std::vector<std::size_t> uneven;  // blocks in which the speed changes
+constexpr std::size_t kMachines = 2;
+
+/// The force readings of one run that are taken.
+struct TakenReadings {
+  const Series* series;
+  std::size_t machine;
+  double newtons_per_SI;
+  std::vector<std::size_t> blocks;
+  std::vector<double> load_N;  // of each of these blocks; 0 in skim
+  Whitener whitener;           // of them alone
 };
 
-/// Blocks next to which the mean speed changes.
-std::vector<std::size_t> find_uneven_blocks(const PreparedSet& set, const Series& series) {
-  constexpr double kSteady_m_s2 = 0.02;  // Assumed: above the noise of speeds, below any change of speed
-  std::vector<double> speed_m_s;
+/// Blocks of a series in which the surface turns at a constant speed.
+std::vector<std::size_t> list_steady_blocks(const measurements::MeasuredRun& run, const Series& series) {
+  std::vector<std::size_t> steady;
   for (std::size_t k = 0; k < series.size(); ++k) {
-    speed_m_s.push_back(find_mean_input(set, series, k, models::quantities::kSpeed));
-  }
-  std::vector<std::size_t> uneven;
-  for (std::size_t k = 0; k < series.size(); ++k) {
-    const std::size_t before = k == 0 ? 0 : k - 1;
-    const std::size_t after = std::min(k + 1, series.size() - 1);
-    const double time_s = series.time_s[after] - series.time_s[before];
-    if (time_s > 0.0 && std::abs(speed_m_s[after] - speed_m_s[before]) > kSteady_m_s2 * time_s) uneven.push_back(k);
-  }
-  return uneven;
-}
-
-std::vector<ForceSeries> find_force_series(const PreparedSet& set) {
-  std::vector<ForceSeries> found;
-  for (const Series& series : set.series()) {
-    const std::size_t machine = set.runs()[series.run].machine;
-    const measurements::MeasurementSet& source = set.source(machine);
-    if (!(set.channels()[series.channel] == source.kind->traits.force)) continue;
-    ForceSeries force{&series, machine, set.kind().force_channel(source).newtons_per_SI, {}, {}, {}};
-    for (std::size_t k = 0; k < series.size(); ++k) {
-      force.load_N.push_back(find_mean_input(set, series, k, models::quantities::kLoad));
-      force.is_in_skim.push_back(force.load_N.back() <= set.kind().skim_limit_N(source));
+    const Block& block = series.blocks[k];
+    bool is_steady = true;
+    for (std::size_t i = block.first; i < block.last; ++i) {
+      const double acceleration_m_s2 = measurements::find_acceleration(run, series.rows[i]);
+      is_steady = is_steady && std::abs(acceleration_m_s2) <= measurements::kSteadyAcceleration_m_s2;
     }
-    force.uneven = find_uneven_blocks(set, series);
-    found.push_back(std::move(force));
+    if (is_steady) steady.push_back(k);
   }
-  return found;
+  return steady;
 }
 
-/// Unknowns of the least squares: d of each machine, offsets of sessions, and one for each uneven block, which takes
-/// the block out without disturbing the drift between its neighbors.
+/// Of steady blocks those of the last minute of their phase, at least one of each.
+std::vector<std::size_t> keep_ends_of_phases(const Series& series, const std::vector<std::size_t>& steady) {
+  constexpr double kRead_s = 60.0;  // as a laboratory averages the last minute
+  std::map<std::size_t, double> end_s;
+  for (const std::size_t k : steady) end_s[series.phase[k]] = series.time_s[k];
+  std::vector<std::size_t> kept;
+  for (const std::size_t k : steady) {
+    if (series.time_s[k] > end_s.at(series.phase[k]) - kRead_s) kept.push_back(k);
+  }
+  return kept;
+}
+
+/// A whitener of some blocks, as if only their samples had been taken.
+Whitener make_whitener(const models::SensorParameters& sensor, const measurements::MeasuredRun& run,
+                       const Series& series, const std::vector<std::size_t>& taken) {
+  std::vector<double> time_s;
+  std::vector<Block> blocks;
+  for (const std::size_t k : taken) {
+    const std::size_t first = time_s.size();
+    for (std::size_t i = series.blocks[k].first; i < series.blocks[k].last; ++i) {
+      time_s.push_back(run.time_s[series.rows[i]]);
+    }
+    blocks.push_back({first, time_s.size()});
+  }
+  return Whitener(sensor, time_s, blocks);
+}
+
+std::vector<TakenReadings> take_readings(const PreparedSet& set) {
+  std::vector<TakenReadings> taken;
+  for (const Series& series : set.series()) {
+    const PreparedRun& run = set.runs()[series.run];
+    const measurements::MeasurementSet& source = set.source(run.machine);
+    const Quantity& force = source.kind->traits.force;
+    if (!(set.channels()[series.channel] == force)) continue;
+    const std::vector<std::size_t> blocks = keep_ends_of_phases(series, list_steady_blocks(run.measured, series));
+    if (blocks.empty()) continue;
+    TakenReadings readings{&series, run.machine, set.kind().force_channel(source).newtons_per_SI,
+                           blocks,  {},          make_whitener(source.sensors.at(force), run.measured, series, blocks)};
+    for (const std::size_t k : blocks) {
+      const double load_N = find_mean_input(set, series, k, models::quantities::kLoad);
+      readings.load_N.push_back(load_N > set.kind().skim_limit_N(source) ? load_N : 0.0);
+    }
+    taken.push_back(std::move(readings));
+  }
+  return taken;
+}
+
+/// Least squares for d of each machine and the offsets of sessions.
 class RrcLine {
  public:
-  explicit RrcLine(const PreparedSet& set) : all_(find_force_series(set)) {
-    std::size_t unknowns = kMachines + set.offset_count();
-    for (const ForceSeries& one : all_) {
-      first_uneven_.push_back(unknowns);
-      unknowns += one.uneven.size();
-      for (std::size_t k = 0; k < one.load_N.size(); ++k) {
-        if (one.is_in_skim[k]) {
-          with_skim_.insert(one.series->offset);
-        } else {
+  explicit RrcLine(const PreparedSet& set) : all_(take_readings(set)) {
+    const Eigen::Index unknowns = to_index(kMachines + set.offset_count());
+    constexpr double kFree = 1e-12;  // so little that an unknown of which no reading says anything is 0
+    normal_ = Eigen::MatrixXd::Zero(unknowns, unknowns);
+    normal_.diagonal().setConstant(kFree);
+    std::set<std::size_t> with_skim;  // offsets
+    for (const TakenReadings& one : all_) {
+      for (const double load_N : one.load_N) {
+        if (load_N > 0.0) {
           loaded_.insert(one.machine);
+        } else {
+          with_skim.insert(one.series->offset);
         }
       }
     }
-    normal_ = Eigen::MatrixXd::Zero(to_index(unknowns), to_index(unknowns));
-    constexpr double kFree = 1e-12;  // so little that unknowns of which no block says anything are 0
-    normal_.diagonal().setConstant(kFree);
-    for (const ForceSeries& one : all_) {
+    for (const TakenReadings& one : all_) {
       const double sd = one.series->offset_sd;
-      const bool has_skim = with_skim_.count(one.series->offset) > 0;
-      if (!has_skim && sd > 0.0) normal_(at_offset(one), at_offset(one)) = 1.0 / (sd * sd);
+      if (with_skim.count(one.series->offset) == 0 && sd > 0.0)
+        normal_(at_offset(one), at_offset(one)) = 1.0 / (sd * sd);
     }
   }
 
@@ -91,10 +121,9 @@ class RrcLine {
     std::vector<Columns> design;
     std::vector<Eigen::VectorXd> readings;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(normal_.rows());
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-      design.push_back(whiten_design(i));
-      readings.emplace_back(all_[i].series->rows_of(difference));
-      all_[i].series->whitener.apply(readings.back().data(), 1);
+    for (const TakenReadings& one : all_) {
+      design.push_back(whiten_design(one));
+      readings.push_back(whiten_readings(one, difference));
       normal_ += design.back().transpose() * design.back();
       right += design.back().transpose() * readings.back();
     }
@@ -113,22 +142,25 @@ class RrcLine {
   }
 
  private:
-  static constexpr std::size_t kMachines = 2;
+  static Eigen::Index at_offset(const TakenReadings& one) { return to_index(kMachines + one.series->offset); }
 
-  static Eigen::Index at_offset(const ForceSeries& one) { return to_index(kMachines + one.series->offset); }
-
-  Columns whiten_design(std::size_t i) const {
-    const ForceSeries& one = all_[i];
-    Columns columns = Columns::Zero(to_index(one.load_N.size()), normal_.rows());
-    for (std::size_t k = 0; k < one.load_N.size(); ++k) {
-      columns(to_index(k), to_index(one.machine)) = one.load_N[k] / one.newtons_per_SI;
-      columns(to_index(k), at_offset(one)) = 1.0;
+  Columns whiten_design(const TakenReadings& one) const {
+    Columns columns = Columns::Zero(to_index(one.blocks.size()), normal_.rows());
+    for (std::size_t i = 0; i < one.blocks.size(); ++i) {
+      columns(to_index(i), to_index(one.machine)) = one.load_N[i] / one.newtons_per_SI;
+      columns(to_index(i), at_offset(one)) = 1.0;
     }
-    for (std::size_t j = 0; j < one.uneven.size(); ++j) {
-      columns(to_index(one.uneven[j]), to_index(first_uneven_[i] + j)) = 1.0;
-    }
-    one.series->whitener.apply(columns.data(), static_cast<std::size_t>(columns.cols()));
+    one.whitener.apply(columns.data(), static_cast<std::size_t>(columns.cols()));
     return columns;
+  }
+
+  static Eigen::VectorXd whiten_readings(const TakenReadings& one, const Eigen::VectorXd& difference) {
+    Eigen::VectorXd readings(to_index(one.blocks.size()));
+    for (std::size_t i = 0; i < one.blocks.size(); ++i) {
+      readings[to_index(i)] = difference[to_index(one.series->first_residual + one.blocks[i])];
+    }
+    one.whitener.apply(readings.data(), 1);
+    return readings;
   }
 
   rollrig::RrcEstimate make_estimate(double value, double noise_sd, double scatter) const {
@@ -144,10 +176,8 @@ class RrcLine {
     return {kPerKilo * value, kPerKilo * (value - half), kPerKilo * (value + half)};
   }
 
-  std::vector<ForceSeries> all_;
-  std::vector<std::size_t> first_uneven_;  // place of the unknown of the first uneven block of each series
-  std::set<std::size_t> with_skim_;        // offsets
-  std::set<std::size_t> loaded_;           // machines
+  std::vector<TakenReadings> all_;
+  std::set<std::size_t> loaded_;  // machines
   Eigen::MatrixXd normal_;
 };
 

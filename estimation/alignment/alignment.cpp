@@ -195,7 +195,10 @@ void add_monitoring(const AlignmentFile& file, AlignmentResult& result) {
 /// When the machine has to be aligned anew.
 void judge_validity(const AlignmentFile& file, const AlignmentInput& input, AlignmentResult& result) {
   result.valid_until_s = add_years(file.last_s, file.rules.years_valid);
-  result.judged_on_s = input.on.empty() ? file.newest_s : read_day_s(input.on, "--on");
+  constexpr double kNever_s = -std::numeric_limits<double>::infinity();
+  const double changed_s =
+      input.machine_changed.empty() ? kNever_s : read_day_s(input.machine_changed, "--machine-changed");
+  result.judged_on_s = input.on.empty() ? std::max(file.newest_s, changed_s) : read_day_s(input.on, "--on");
   if (format_day(result.judged_on_s) < format_day(file.last_s)) {
     throw InputError({"validity is judged on a day before the last measurement of the alignment", "command line", 0,
                       "--on", input.on, fmt::format("{} or later", format_day(file.last_s)), ""});
@@ -203,7 +206,7 @@ void judge_validity(const AlignmentFile& file, const AlignmentInput& input, Alig
   if (result.judged_on_s > result.valid_until_s) {
     result.due_because.push_back(fmt::format("the alignment was valid until {}", format_day(result.valid_until_s)));
   }
-  if (!input.machine_changed.empty() && read_day_s(input.machine_changed, "--machine-changed") >= file.first_s) {
+  if (changed_s >= file.first_s && changed_s <= result.judged_on_s) {
     result.due_because.push_back(
         fmt::format("the machine was changed on {}, after the first measurement of the "
                     "alignment",

@@ -245,6 +245,7 @@ void doubt_units(RoadLoadProcedure& procedure) {
   constexpr double kAt_m_s = 50.0 / 3.6;
   constexpr double kFarBelow = 0.0015;
   constexpr double kFarAbove = 0.03;
+  constexpr double kImpossible = 5.0;
   const double mass_kg = procedure.correction.mass_kg;
   double top_m_s = 0.0;
   for (const ProcedurePoint& point : procedure.points) top_m_s = std::max(top_m_s, point.speed_m_s);
@@ -252,6 +253,13 @@ void doubt_units(RoadLoadProcedure& procedure) {
       (procedure.road_load(0) + procedure.road_load(1) * kAt_m_s) / (mass_kg * kStandardGravity_m_s2);
   const double area_m2 = 2.0 * procedure.road_load(2) / 1.2;
   const double ratio = rolling > 0.0 ? area_m2 / mass_kg / rolling : 0.0;
+  if (!(rolling > kFarBelow / kImpossible && rolling < kFarAbove * kImpossible)) {
+    throw InputError(
+        {fmt::format("the rolling loss at 50 km/h is {:.3g} of the weight, which no vehicle has: are the mass "
+                     "and the units of the columns right?",
+                     rolling),
+         "", 0, "--mass", fmt::format("{:g}", mass_kg), "a loss near that of cars, 0.004 to 0.016", ""});
+  }
   if (top_m_s < kMostTop_m_s && rolling < kMostRolling && ratio > kMostRatio) {
     procedure.warnings.push_back(fmt::format(
         "the rolling loss is {:.4f} of the weight, which is low, f2 is that of a drag area of {:.2f} m2, which "

@@ -99,6 +99,7 @@ void check_reference_speeds(RoadLoadProcedure& procedure);
 void check_reference_precision(RoadLoadProcedure& procedure);
 
 /// Warns where the size of the coefficients says that speeds are in mph, or the mass is not that of the vehicle.
+/// Errors  InputError: a rolling loss that no vehicle has
 void doubt_units(RoadLoadProcedure& procedure);
 
 /// As a run is named in messages.

@@ -102,8 +102,27 @@ struct DynamicRadius {
   double wheel_speed_Hz = 0.0;
 };
 
+/// Throws InputError where speed and turns of the wheels give a radius that no road vehicle has.
+void require_possible_radius(const std::string& path, double radius_m, double turns_Hz) {
+  constexpr double kLeast_m = 0.22, kMost_m = 0.7;  // Assumed: from the smallest car to the largest truck
+  constexpr double kUsualCar_m = 0.31;
+  constexpr double kPerMinute = 60.0;
+  if (radius_m >= kLeast_m && radius_m <= kMost_m) return;
+  const auto is_usual_after = [radius_m](double factor) {
+    return radius_m * factor > 0.8 * kUsualCar_m && radius_m * factor < 1.3 * kUsualCar_m;
+  };
+  const char* guess = is_usual_after(kPerMinute) ? "; wheel_speed_Hz looks as if it were in 1/min"
+                      : is_usual_after(boost::math::constants::two_pi<double>())
+                          ? "; wheel_speed_Hz looks as if it were in rad/s"
+                          : "; are both speeds in the units of their columns?";
+  throw InputError({std::string("speed and turns of the wheels give a radius that no tire has") + guess, path, 0,
+                    "wheel_speed_Hz", fmt::format("{:.4g}, a dynamic radius of {:.4g} m", turns_Hz, radius_m),
+                    fmt::format("a radius of {:g} to {:g} m", kLeast_m, kMost_m), ""});
+}
+
 /// By the wheels' rotation at 80 km/h, or at the highest reference speed below.
-DynamicRadius find_wheel_radius(const TorqueFile& file, const RoadLoadProcedureOptions& options) {
+DynamicRadius find_wheel_radius(const std::string& path, const TorqueFile& file,
+                                const RoadLoadProcedureOptions& options) {
   constexpr int kRadiusSpeed_km_h = 80;
   if (options.wheel_radius_m.has_value()) return {*options.wheel_radius_m, 0.0, 0.0};
   if (!file.has_wheel_speeds) {
@@ -121,7 +140,9 @@ DynamicRadius find_wheel_radius(const TorqueFile& file, const RoadLoadProcedureO
     turns_Hz += calc_mean(at.wheel_Hz);
     count += 1.0;
   }
-  return {speed_m_s / (boost::math::constants::two_pi<double>() * turns_Hz), speed_m_s / count, turns_Hz / count};
+  const double radius_m = speed_m_s / (boost::math::constants::two_pi<double>() * turns_Hz);
+  require_possible_radius(path, radius_m, turns_Hz / count);
+  return {radius_m, speed_m_s / count, turns_Hz / count};
 }
 
 /// Equation  C_m = mean C - (m_st + m_r) a r,  a slope of the speed over time
@@ -150,20 +171,24 @@ std::string guess_speed_unit(double share) {
   return "";
 }
 
-/// Throws InputError where speeds or torques cannot be what their columns are named.
-void require_plausible(const std::string& path, const TorqueFile& file, const std::vector<MeanTorque>& means) {
-  constexpr double kMostSpeedError = 0.1;         // Assumed: five times the limit of the procedure
-  std::map<int, std::vector<double>> torques_Nm;  // of a reference speed; one run may go downhill
+/// Throws InputError where a mean speed is not near its reference speed.
+void require_reference_speeds(const std::string& path, const TorqueFile& file) {
+  constexpr double kMostError = 0.1;  // Assumed: five times the limit of the procedure
+  for (const TorqueMeasurement& at : file.measurements) {
+    const double speed_km_h = kKmhPerMs * calc_mean(at.speed_m_s);
+    const double share = speed_km_h / at.reference_km_h;
+    if (std::abs(share - 1.0) <= kMostError) continue;
+    throw InputError({"the mean speed is not near its reference speed" + guess_speed_unit(share), path, 0, "speed_km_h",
+                      fmt::format("{:.1f} at reference_km_h = {}", speed_km_h, at.reference_km_h),
+                      "a mean within 10 % of the reference speed; the procedure asks for 1 km/h or 2 %", ""});
+  }
+}
+
+/// Throws InputError where the torques of a reference speed are not positive on the mean; one run may go downhill.
+void require_driving_torques(const std::string& path, const TorqueFile& file, const std::vector<MeanTorque>& means) {
+  std::map<int, std::vector<double>> torques_Nm;
   for (std::size_t i = 0; i < means.size(); ++i) {
-    const int reference_km_h = file.measurements[i].reference_km_h;
-    const double speed_km_h = kKmhPerMs * means[i].speed_m_s;
-    const double share = speed_km_h / reference_km_h;
-    if (std::abs(share - 1.0) > kMostSpeedError) {
-      throw InputError({"the mean speed is not near its reference speed" + guess_speed_unit(share), path, 0,
-                        "speed_km_h", fmt::format("{:.1f} at reference_km_h = {}", speed_km_h, reference_km_h),
-                        "a mean within 10 % of the reference speed; the procedure asks for 1 km/h or 2 %", ""});
-    }
-    torques_Nm[reference_km_h].push_back(means[i].torque_Nm);
+    torques_Nm[file.measurements[i].reference_km_h].push_back(means[i].torque_Nm);
   }
   for (const auto& [reference_km_h, values_Nm] : torques_Nm) {
     const double mean_Nm = calc_mean(values_Nm);
@@ -203,6 +228,11 @@ void check_measurements(const TorqueFile& file, const std::vector<MeanTorque>& m
                               kTorqueClause});
   if (farthest > 1.0) {
     procedure.warnings.push_back(fmt::format("a mean speed is {} from its reference speed", found_speed));
+  }
+  constexpr double kLong_s = 1800.0;  // Assumed
+  if (file.has_times && shortest_s > kLong_s) {
+    procedure.warnings.push_back(
+        fmt::format("each measurement lasts {:.0f} s or more: is time_s in seconds?", shortest_s));
   }
   if (!file.has_times) {
     procedure.warnings.push_back("no column time_s: torques are not corrected for a drift of the speed");
@@ -254,7 +284,8 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   const std::vector<std::string> windy =
       check_winds(file.runs, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, procedure.checks);
   procedure.correction.wind_m_s = find_common_wind(file.runs);
-  const DynamicRadius radius = find_wheel_radius(file, options);
+  require_reference_speeds(path, file);
+  const DynamicRadius radius = find_wheel_radius(path, file, options);
   procedure.wheel_radius_m = radius.radius_m;
   const double effective_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
   std::vector<MeanTorque> means;
@@ -274,7 +305,7 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
     procedure.points.push_back(
         {runs[at.run].name, runs[at.run].heading, means.back().speed_m_s, means.back().torque_Nm, 0.0});
   }
-  require_plausible(path, file, means);
+  require_driving_torques(path, file, means);
   std::map<int, double> speeds_m_s;
   for (const auto& [km_h, sum] : sums) speeds_m_s[km_h] = sum.first / sum.second;
   const PairRule rule{false, 1.0, "torques"};

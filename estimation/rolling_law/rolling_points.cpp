@@ -129,7 +129,7 @@ std::size_t count_copies(const std::vector<RollingPoint>& points) {
 }  // namespace
 
 void require_plausible_coefficient(const std::string& path, const std::vector<RollingPoint>& points) {
-  constexpr double kLeast = 1.5e-3;  // Assumed: below it is no road tire; the best have 4 N/kN
+  constexpr double kLeast = 2.5e-3;  // Assumed: below it is no road tire; the best have 4 N/kN
   constexpr double kMost = 30e-3;    // Assumed: of a cold tire at low pressure
   if (points.empty()) return;
   std::vector<double> coefficients;

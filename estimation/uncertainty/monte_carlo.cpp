@@ -11,6 +11,7 @@
 
 #include "include/rollrig/error.h"
 #include "sim/core/parallel.h"
+#include "sim/core/units.h"
 #include "sim/core/random.h"
 
 namespace rollrig::estimation {
@@ -92,7 +93,8 @@ void find_moments(const UncertaintyBudget& budget, MonteCarloResult& result) {
 
 void compare_with_budget(const UncertaintyBudget& budget, MonteCarloResult& result) {
   find_moments(budget, result);
-  result.tolerance = calc_numerical_tolerance(budget.combined);
+  const double factor = unit_of_key(budget.measurand.key).factor;  // digits are those of the unit that is shown
+  result.tolerance = factor * calc_numerical_tolerance(budget.combined / factor);
   result.gum_low = budget.value - budget.expanded;
   result.gum_high = budget.value + budget.expanded;
   result.low_difference = std::abs(result.gum_low - result.low);

@@ -234,9 +234,14 @@ MeasurementModel make_iso_model(const RunSpec& spec, const std::vector<Cycle>& c
   model.left_out = {"mounting of the tire, and how the test repeats from day to day: this is one test"};
   const MethodBudget& budget = find_method_budget(readings.method);
   if (!has_scatter(spec, budget, cycles)) {
-    model.left_out.push_back(fmt::format(
-        "repeatability from cycle to cycle: it takes measurement_cycles = {} or more, with a sensor of the {}",
-        kFewestCycles, readings.method));
+    model.left_out.push_back(
+        budget.channel == nullptr
+            ? fmt::format(
+                  "repeatability from cycle to cycle: it takes measurement_cycles = {} or more, with a sensor of "
+                  "the {}",
+                  kFewestCycles, readings.method)
+            : fmt::format("repeatability from cycle to cycle: no sensor of the {} method is simulated",
+                          readings.method));
   }
   if (budget.is_slope() && !has_sensor(spec, budget)) {
     model.left_out.push_back("noise of the speed: the run has no sensor of the speed");

@@ -73,6 +73,7 @@ TEST_CASE("usage errors name the nearest word and exit with 2", "[fast]") {
   CHECK(after_option.status == 2);
   CHECK_THAT(after_option.err, Contains("unknown command 'rnu'") && Contains("nearest  run"));
   CHECK_THAT(run_program("--log=debug rnu iso_28580").err, Contains("nearest  run"));
+  CHECK_THAT(run_program("export c3_315_80r22_5 --vecto t.xml --force").err, Contains("unknown option '--force'"));
   CHECK(run_program("").status == 2);
   CHECK(run_program("run iso_28580").status == 2);
 }

@@ -150,6 +150,28 @@ TEST_CASE("torque meter: precision, and what is wrong with a test", "[fast]") {
   CHECK_THROWS_WITH(evaluate_torques(write_torques(study)), Contains("speed_km_h looks as if it were in mph"));
 }
 
+TEST_CASE("torque meter: turns of the wheels in another unit are refused by the radius that they give", "[fast]") {
+  const auto write = [](double speed_factor, double turns_factor) {
+    CsvWriter csv({"reference_km_h", "speed_km_h", "wheel_torque_Nm", "wheel_speed_Hz", "run", "heading"});
+    for (int run = 0; run < 6; ++run) {
+      for (const int km_h : {20, 50, 80, 110}) {
+        csv.add(speed_factor * km_h);
+        csv.add(speed_factor * km_h);
+        csv.add(40.0 + 0.01 * km_h * km_h + 0.01 * run);
+        csv.add(turns_factor * km_h / 3.6 / (2.0 * 3.14159265358979 * 0.32));
+        csv.add(std::to_string(run + 1));
+        csv.add(std::string(run % 2 == 0 ? "+" : "-"));
+        csv.end_row();
+      }
+    }
+    return csv.take();
+  };
+  CHECK(evaluate_torques(write(1.0, 1.0)).wheel_radius_m == Approx(0.32));
+  CHECK_THROWS_WITH(evaluate_torques(write(1.0, 60.0)), Contains("wheel_speed_Hz looks as if it were in 1/min"));
+  CHECK_THROWS_WITH(evaluate_torques(write(1.0, 6.2831853)), Contains("wheel_speed_Hz looks as if it were in rad/s"));
+  CHECK_THROWS_WITH(evaluate_torques(write(0.62137, 1.0)), Contains("a radius that no tire has"));  // both in mph
+}
+
 TEST_CASE("torque meter: torques of the wrong sign are refused, those of one run downhill are not", "[fast]") {
   const auto write = [](const std::vector<double>& torques_Nm) {
     CsvWriter csv({"reference_km_h", "speed_km_h", "wheel_torque_Nm", "run", "heading"});

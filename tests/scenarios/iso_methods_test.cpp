@@ -89,6 +89,20 @@ TEST_CASE("an error in the scale of the torque is in the torque method alone", "
   CHECK(difference == Approx(100.0 * (1.0 / 1.02 - 1.0)).epsilon(1e-4));
 }
 
+TEST_CASE("the deceleration method is off by as much as its budget says, more after short measurement cycles",
+          "[fast]") {
+  for (const std::string& tire : kOfEachClass) {
+    INFO(tire);
+    const auto difference_percent = [&](const std::string& cycles) {
+      const auto outcome = run_coasts(tire, {"measurement_cycles=" + cycles});
+      return outcome.result["methods"].back()["difference_percent"].get<double>();
+    };
+    CHECK(std::abs(difference_percent("0")) < 0.4);
+    CHECK(std::abs(difference_percent("3")) < 0.9);
+    CHECK(std::abs(difference_percent("3")) > 0.4);
+  }
+}
+
 TEST_CASE("every number of the test is that of the method that is set, in each cycle", "[fast]") {
   const std::vector<std::string> rig_errors{"effects.torque_gain.gain_percent=4", "spindle_misalignment_mrad=0.3",
                                             "measurement_cycles=2"};
@@ -106,7 +120,7 @@ TEST_CASE("every number of the test is that of the method that is set, in each c
     REQUIRE(cycles.size() == 3);
     CHECK(cycles[2]["rolling_resistance_N"] == outcome.result["rolling_resistance_N"]);
     CHECK(cycles[2]["parasitic_N"] == outcome.result["parasitic_N"]);
-    double sum_N_per_kN = 0.0;
+    double sum_N_per_kN = -cycles[0]["rrc_N_per_kN"].get<double>();  // the warm-up is no measurement cycle
     const auto to_force_method = [](const Json& of) {
       return of["rolling_resistance_N"].get<double>() / of["force_method_N"].get<double>();
     };
@@ -115,7 +129,7 @@ TEST_CASE("every number of the test is that of the method that is set, in each c
       CHECK(to_force_method(cycle) == Approx(to_force_method(outcome.result)).epsilon(5e-3));
       sum_N_per_kN += cycle["rrc_N_per_kN"].get<double>();
     }
-    CHECK(number(outcome, "rrc_cycles_mean_N_per_kN") == Approx(sum_N_per_kN / 3.0));
+    CHECK(number(outcome, "rrc_cycles_mean_N_per_kN") == Approx(sum_N_per_kN / 2.0));
   }
 }
 
