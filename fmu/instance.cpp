@@ -50,8 +50,10 @@ void set_all_or_none(const std::vector<std::size_t>& variables, const double* va
 }
 
 void require_times(double start_s, double stop_s) {
-  if (std::isfinite(start_s) && stop_s >= start_s) return;
-  throw InputError({"start or stop time is wrong", "", 0, "", fmt::format("{:g} to {:g} s", start_s, stop_s), "", ""});
+  require_time(start_s);
+  if (stop_s >= start_s) return;
+  throw InputError({"the stop time is before the start time, or not a number", "", 0, "stop time",
+                    fmt::format("{:g}", stop_s), fmt::format(">= {:g} s", start_s), ""});
 }
 
 SavedState& to_saved_state(void* state) {

@@ -31,7 +31,8 @@ constexpr std::array<InputInfo, rigs::kRollerInputCount + 1> kInputs{
      {"surface_temperature_K", "Road, drum, belt or roller under the tire; it does not follow ambient_temperature_K",
       kSurroundings_K},
      {"drive_force_N", "Torque at the hub divided by the loaded radius; positive when it drives", kForces_N},
-     {"acceleration_m_s2", "Rate of change of speed_m_s; in co-simulation, in co-simulation, the speed also changes at this rate during a step",
+     {"acceleration_m_s2",
+      "Rate of change of speed_m_s; in co-simulation, the speed also changes at this rate during a step",
       between(-1e3, 1e3)}}};
 constexpr std::size_t kSpeed = rigs::index_of(rigs::DrumInput::kSpeed);
 constexpr std::size_t kAcceleration = rigs::kRollerInputCount;
@@ -64,8 +65,7 @@ constexpr const char* kLostEnergy = "tire_loss_J";
 constexpr double kEnergyScale_J = 1e5;  // Assumed: of a tire in minutes
 constexpr std::size_t kLostIntegral = rigs::index_of(rigs::RecordedIntegral::kTireLoss);
 
-constexpr double kMostSteps =
-    1e5;  // of the integrator in one advance(), so that a mistaken number does not run forever
+constexpr double kMostSteps = 1e5;  // of the integrator in one advance(), so that a mistaken number ends soon
 
 constexpr const char* kLiner = "liner_temperature_K";  // whatever the tire's model calls it
 
@@ -109,7 +109,26 @@ void require_consistent(const WheelModel& model) {
   }
 }
 
+/// Throws InputError for a length that advance() cannot go on by.
+void require_step(double duration_s, double longest_s, double time_s) {
+  const auto refuse = [duration_s](const std::string& what, const std::string& allowed) {
+    throw InputError({what, "", 0, "step", fmt::format("{:g}", duration_s), allowed, ""});
+  };
+  if (!(duration_s > 0.0) || !std::isfinite(duration_s)) refuse("a step must have a length", "> 0 s");
+  if (duration_s > longest_s) refuse("the step is too long", fmt::format("up to {:g} s", longest_s));
+  require_time(time_s + duration_s);
+  if (time_s + duration_s > time_s) return;
+  const double spacing_s = std::nextafter(time_s, kLatest_s) - time_s;
+  refuse("the step is too short for the time", fmt::format("at least {:g} s at {:g} s", spacing_s, time_s));
+}
+
 }  // namespace
+
+void require_time(double time_s) {
+  if (std::abs(time_s) <= kLatest_s) return;
+  throw InputError({"the time is too far from 0, or not a number", "", 0, "time", fmt::format("{:g}", time_s),
+                    fmt::format("{:g} to {:g} s", -kLatest_s, kLatest_s), ""});
+}
 
 /// The equations for one scalar, with what an integrator needs.
 template <class S>
@@ -304,7 +323,7 @@ std::unique_ptr<WarmWheel::Simulation<double>> WarmWheel::make_simulation(double
 }
 
 void WarmWheel::initialize(double time_s) {
-  require_finite(time_s, "time");
+  require_time(time_s);
   std::unique_ptr<Simulation<double>> simulation = make_simulation(time_s);
   states_ = simulation->states;
   states_.push_back(0.0);
@@ -315,7 +334,7 @@ void WarmWheel::initialize(double time_s) {
 }
 
 void WarmWheel::set_time(double time_s) {
-  require_finite(time_s, "time");
+  require_time(time_s);
   time_s_ = time_s;
 }
 
@@ -341,13 +360,7 @@ void WarmWheel::evaluate() {
 
 void WarmWheel::advance(double duration_s) {
   require_initialized();
-  if (!(duration_s > 0.0) || !std::isfinite(duration_s)) {
-    throw InputError({"a step must have a length", "", 0, "step", fmt::format("{:g}", duration_s), "> 0 s", ""});
-  }
-  if (duration_s > kMostSteps * model_.longest_step_s || time_s_ + duration_s == time_s_) {
-    throw InputError({"the step is too long, or too short for the time", "", 0, "step", fmt::format("{:g}", duration_s),
-                      fmt::format("up to {:g} s", kMostSteps * model_.longest_step_s), ""});
-  }
+  require_step(duration_s, kMostSteps * model_.longest_step_s, time_s_);
   for (std::size_t i = 0; i < rigs::kRollerInputCount; ++i) {
     const double end = inputs_[i] + find_slope(i) * duration_s;
     if (!kInputs[i].range.contains(end)) throw bad_value(variables_[i], end, "the slope leads to a value not allowed");
@@ -471,7 +484,7 @@ void WarmWheel::restore(const Snapshot& snapshot) {
       (has_states && snapshot.states.size() != state_count_)) {
     throw InputError({"the state is one of another wheel", "", 0, "", "", "a state of this wheel", ""});
   }
-  require_finite(snapshot.time_s, "time");
+  require_time(snapshot.time_s);
   for (const Variable& given : variables_) {
     if (given.role != Role::kInput && given.role != Role::kParameter) continue;
     const double value = given.role == Role::kInput ? snapshot.inputs[given.index]

@@ -28,6 +28,14 @@ struct Variable {
   std::size_t index = 0;  // among those of the same role
 };
 
+/// Times of a wheel are from -kLatest_s to kLatest_s. Farther from 0, doubles are so far apart that a step of the
+/// integrator can be lost in rounding: here they are 2e-6 s apart, and the shortest step is 5e-6 s, near standstill at
+/// the largest acceleration.
+/// Assumed: longer than any simulation, and later than any clock that starts in 1970.
+constexpr double kLatest_s = 1e10;
+/// Throws InputError for a time that a wheel cannot have.
+void require_time(double time_s);
+
 /// A moment of a wheel, from which it goes on as if nothing had been in between. In SI units.
 struct Snapshot {
   std::vector<double> parameters;
@@ -78,7 +86,8 @@ class WarmWheel {
   double get_slope_if_input(std::size_t variable) const;
 
   bool is_initialized() const { return simulation_ != nullptr; }
-  /// Puts the tire at the start: all its temperatures are the parameter start.tire_temperature_degC.
+  /// Puts the tire at the start: all its temperatures are the parameter start.tire_temperature_degC. `time_s`: at most
+  /// kLatest_s from 0, as in set_time() and at the end of advance().
   void initialize(double time_s);
   /// Back to before initialize(): parameters and inputs stay, and may be set.
   void undo_initialize();

@@ -77,6 +77,10 @@ TEST_CASE("version 3 refuses wrong calls with a message", "[fast]") {
   const unsigned speed = fmu.description().find("speed_m_s");
   const double values[] = {NAN, 1.0};
   bool flag = false;
+  expect_error(FMI3(fmu, fmi3EnterInitializationMode)(tire.instance, false, 0.0, 1e14, false, 0.0));
+  CHECK_THAT(tire.messages.back(), Catch::Contains("-1e+10 to 1e+10 s"));
+  expect_error(FMI3(fmu, fmi3EnterInitializationMode)(tire.instance, false, 0.0, 10.0, true, 5.0));
+  CHECK_THAT(tire.messages.back(), Catch::Contains("stop time"));
   expect_error(tire.step(0.0, 1.0));
   expect_error(FMI3(fmu, fmi3SetFloat64)(tire.instance, &speed, 1, values, 1));
   CHECK_THAT(tire.messages.back(), Catch::Contains("fmi3SetFloat64") && Catch::Contains("speed_m_s"));

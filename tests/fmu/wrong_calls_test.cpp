@@ -131,6 +131,40 @@ TEST_CASE("a step that is refused changes nothing", "[fast]") {
   tire.step(60.0, 10.0);
 }
 
+TEST_CASE("times at which rounding would lose a step are refused, and all others are stepped through", "[fast]") {
+  const LoadedFmu fmu("a50");
+  for (const double time_s : {1.0001e10, -2e10, 1e11, 1e14, 1e300, HUGE_VAL, kNaN}) {
+    INFO(time_s);
+    Fmi2 tire(fmu, fmi2CoSimulation);
+    WrongCalls wrong(tire);
+    wrong.expect_error(FMI2(fmu, fmi2SetupExperiment)(tire.component, fmi2False, 0.0, time_s, fmi2False, 0.0));
+    CHECK_THAT(tire.messages.back(), Catch::Contains("time") && Catch::Contains("-1e+10 to 1e+10 s"));
+  }
+  Fmi2 solver(fmu, fmi2ModelExchange);
+  solver.initialize();
+  CHECK(FMI2(fmu, fmi2SetTime)(solver.component, 1e14) == fmi2Error);
+  for (const double start_s : {-1e10, -7e9, 1e9, 9.9999999e9}) {
+    INFO(start_s);
+    Fmi2 tire(fmu, fmi2CoSimulation);
+    tire.initialize(start_s);
+    tire.set("speed_m_s", -0.3);  // the shortest steps of the integrator: through standstill at full acceleration
+    tire.set("acceleration_m_s2", 1000.0);
+    tire.step(start_s, 1e-3);
+    CHECK(tire.get("speed_m_s") == Approx(0.7));
+    tire.set("acceleration_m_s2", 0.0);
+    tire.set("speed_m_s", 20.0);
+    tire.step(tire.get("time_s"), 5.0);
+    CHECK(tire.get("liner_temperature_K") > tire.get("ambient_temperature_K"));
+  }
+  Fmi2 late(fmu, fmi2CoSimulation);
+  late.initialize(9.99999999e9);
+  CHECK(FMI2(fmu, fmi2DoStep)(late.component, 9.99999999e9, 20.0, fmi2True) == fmi2Error);
+  CHECK_THAT(late.messages.back(), Catch::Contains("fmi2DoStep") && Catch::Contains("-1e+10 to 1e+10 s"));
+  CHECK(FMI2(fmu, fmi2DoStep)(late.component, 9.99999999e9, 1e-7, fmi2True) == fmi2Error);
+  CHECK_THAT(late.messages.back(), Catch::Contains("too short for the time"));
+  late.step(9.99999999e9, 5.0);
+}
+
 TEST_CASE("an instance is made for the FMU's own description alone", "[fast]") {
   const LoadedFmu fmu("a50");
   const auto make = FMI2(fmu, fmi2Instantiate);
