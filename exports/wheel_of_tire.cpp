@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "models/tire_reference.h"
 #include "sim/core/error.h"
 
 namespace rollrig::exports {
@@ -51,6 +52,7 @@ fmu::WheelModel make_wheel_model(const models::TireFile& tire, const rigs::RigFi
   for (const std::string& id : effects) asked.entries[id] = ConfigValue{ConfigTable{}, {}, ""};
   model.effects = models::read_effects(asked);
   require_changes(model.effects, model.context);
+  models::require_tire_reference(model.context, model.effects, tire.path);
   model.ambient_pressure_Pa = rig.environment.ambient_pressure_Pa;
   model.ambient_K = model.tire_temperature_K = rig.environment.ambient_K;
   const models::Iso28580Reference test = tire.iso_28580.value_or(models::Iso28580Reference{});

@@ -1,5 +1,6 @@
 #include "scenarios/common/drum_bench.h"
 
+#include "models/tire_reference.h"
 #include "rigs/multibody_drum.h"
 #include "rigs/quasi_static_drum.h"
 #include "rigs/trace_effects.h"
@@ -41,7 +42,7 @@ void check_carriage_damping(const RunSpec& spec) {
 }  // namespace
 
 void check_drum(const RunSpec& spec) {
-  rigs::make_context(spec.tire, spec.rig, spec.baseline);
+  models::require_tire_reference(rigs::make_context(spec.tire, spec.rig, spec.baseline), spec.effects, spec.tire.path);
   check_carriage_damping(spec);
 }
 

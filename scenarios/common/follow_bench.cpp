@@ -4,6 +4,7 @@
 
 #include "measurements/read_force.h"
 #include "measurements/resimulation.h"
+#include "models/tire_reference.h"
 #include "scenarios/run/fidelity.h"
 
 namespace rollrig::scenarios {
@@ -69,7 +70,9 @@ void name_phases(sim::Recording<double>& recording) {
 }  // namespace
 
 models::Context<double> make_follow_context(const RunSpec& spec, const measurements::MeasuredRun& rows) {
-  return measurements::make_context(make_set(spec, rows));
+  const models::Context<double> context = measurements::make_context(make_set(spec, rows));
+  models::require_tire_reference(context, spec.effects, spec.tire.path);
+  return context;
 }
 
 void simulate_rows(const RunSpec& spec, const RecordedInputs&, const measurements::MeasuredRun& rows,

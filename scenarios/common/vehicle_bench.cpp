@@ -1,5 +1,6 @@
 #include "scenarios/common/vehicle_bench.h"
 
+#include "models/tire_reference.h"
 #include "rigs/multibody_vehicle.h"
 #include "rigs/quasi_static_vehicle.h"
 #include "rigs/trace_effects.h"
@@ -20,7 +21,10 @@ rigs::RigStart<double> make_vehicle_start(const RunSpec& spec, const VehicleCond
 }  // namespace
 
 models::Context<double> make_wheel_context(const RunSpec& spec, const rigs::VehicleAxle& axle) {
-  return rigs::make_vehicle_context(rigs::tire_of(axle, spec.tire), spec.rig, *spec.vehicle, spec.baseline);
+  const models::TireFile& tire = rigs::tire_of(axle, spec.tire);
+  const auto context = rigs::make_vehicle_context(tire, spec.rig, *spec.vehicle, spec.baseline);
+  models::require_tire_reference(context, spec.effects, tire.path);
+  return context;
 }
 
 void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, const VehicleProgram& program,

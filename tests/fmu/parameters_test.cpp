@@ -208,6 +208,45 @@ TEST_CASE("each parameter of an FMU acts, whatever the tire's law", "[fast]") {
   }
 }
 
+TEST_CASE("an effect that needs a table that the tire lacks is refused before any step", "[slow]") {
+  const TemporaryFolder folder;
+  std::string other = kReference;
+  other.replace(other.find("5000.0"), 6, "4000.0").replace(other.find("250.0"), 5, "230.0");
+  for (const char* rig : {"road", "drum_2m", "dyno_1m2"}) {
+    const std::string lacking = write_tire(folder, {"constant_rrc", kConstant});
+    std::vector<std::string> refused;
+    std::vector<std::string> needing;
+    const std::vector<std::string> all = list_acting_effects(lacking, rig);
+    for (const std::string& effect : all) {
+      INFO(effect << " on " << rig);
+      const auto drive_with = [&](const std::string& reference) {
+        const LoadedFmu fmu(write_tire(folder, {"constant_rrc", kConstant + reference}), rig, 2, {effect});
+        Fmi2 tire(fmu, fmi2CoSimulation);
+        std::map<std::string, double> parameters{{"start.cold_pressure_kPa", 240.0}};
+        for (const auto& [name, variable] : fmu.description().variables) {
+          if (name.rfind("effects.", 0) != 0) continue;  // some do nothing at their start
+          parameters[name] = variable.start != 0.0 ? 0.95 * variable.start : 0.05;
+        }
+        return drive(tire, parameters);
+      };
+      const std::vector<double> usual = drive_with(std::string(kReference) + kLines);
+      REQUIRE_FALSE(usual.empty());
+      if (drive_with(other + kLines) != usual) needing.push_back(effect);
+      try {
+        const std::vector<double> without = drive_with("");
+        CHECK(without == usual);
+      } catch (const rollrig::InputError& error) {
+        CHECK_THAT(error.what(), Catch::Contains("[rolling_resistance]") && Catch::Contains("trial.toml"));
+        CHECK(error.problem().value == effect);
+        refused.push_back(effect);
+      }
+    }
+    CHECK(refused == needing);
+    CHECK(refused.size() > 5);
+    CHECK(refused.size() < all.size());
+  }
+}
+
 TEST_CASE("each parameter of an effect in an FMU acts", "[fast]") {
   const TemporaryFolder folder;
   for (const char* rig : {"road", "drum_2m", "dyno_1m2"}) {
