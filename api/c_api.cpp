@@ -108,7 +108,11 @@ ConfigTable read_named_or_text(const std::string& folder, const char* given) {
   return read_config(find_asset(folder, text));
 }
 
-std::string to_setting(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+std::string to_setting(const std::string& key, const Json& value) {
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  if (text.find('\0') == std::string::npos) return text;
+  throw c_error("a text has a NUL character, at which names of files end", key, value.dump(), "text without one");
+}
 
 RunInput read_run_input(const std::string& text) {
   const Json json = parse_json(text, "input of the run");
@@ -123,9 +127,10 @@ RunInput read_run_input(const std::string& text) {
   for (const auto& [key, value] : json.items()) {
     const auto member = members.find(key);
     if (member != members.end()) {
-      *member->second = to_setting(value);
+      *member->second = to_setting(key, value);
     } else if (key == "settings" && value.is_object()) {
-      for (const auto& [name, setting] : value.items()) input.settings.push_back(name + "=" + to_setting(setting));
+      for (const auto& [name, setting] : value.items())
+        input.settings.push_back(name + "=" + to_setting(name, setting));
     } else {
       throw InputError(unknown_name("member of a run", key, names));
     }

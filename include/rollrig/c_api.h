@@ -2,14 +2,17 @@
 #define ROLLRIG_C_API_H
 /* rollrig for C, and for languages that call C: MATLAB (loadlibrary), Python (ctypes) and others. See docs/c_api.md.
 
-   Texts are UTF-8 and end with a zero. Functions that create an object return a null pointer where they fail; functions
-   named set, get, start, step, reset, differentiate, save and load return a status. After either failed,
-   rollrig_last_error() says why. Counts, sizes, numbers of variables, names and other texts need no status: of a null
-   object or an unknown number or name they are 0, -1 or a null pointer, and set no error. Two threads may use two
-   objects at once, but not one object.
+   Texts are UTF-8 and end with a NUL character. There are three kinds of functions:
+   - Functions that create an object return it. Where they fail, they return a null pointer.
+   - Functions that act (set, get, start, step, reset, differentiate, save, load) return a status.
+   - Functions that only tell something return a count, a size, a number of a variable, or a text. For a null object, an
+     unknown number or an unknown name, they return 0, -1 and a null pointer, respectively.
+   rollrig_last_error() says why a function of the first two kinds failed. The third kind does not change it.
 
-   Free each object once, with the function named free of its kind; a null pointer is no mistake there. Names and other
-   texts of an object are valid until it is freed. */
+   Two threads may use two objects at the same time, but not the same object.
+
+   Free each object once, with rollrig_wheel_free() or rollrig_run_free(). To free a null pointer does nothing. Names and
+   other texts of an object are valid until it is freed. */
 
 #define ROLLRIG_C_API_VERSION 1
 
@@ -28,8 +31,8 @@ extern "C" {
    header, do not call the library. */
 int rollrig_c_api_version(void);
 
-/* Why this thread's last call that creates an object or returns a status failed; empty if it did not fail, or if there
-   is no memory for the reason. Valid until the next such call of the thread. */
+/* Why the last call of this thread failed, not counting calls that only tell something. Empty if that call did not fail,
+   or if there was no memory for the text. Valid until the next call that counts. */
 const char* rollrig_last_error(void);
 
 /* A warm tire on its wheel, without effects, whose motion the caller gives. Its variables have numbers from 0, and
@@ -61,10 +64,10 @@ int rollrig_wheel_get(rollrig_wheel* wheel, int variable, double* value);
 int rollrig_wheel_set_slope(rollrig_wheel* wheel, int variable, double slope_per_s);
 
 /* Puts the tire at the start: all its temperatures are the parameter start.tire_temperature_degC. After this,
-   parameters are fixed. time_s: any finite number. Errors: ROLLRIG_INPUT_ERROR for parameters that contradict each
-   other. */
+   parameters are fixed. time_s: -1e10 to 1e10. Errors: ROLLRIG_INPUT_ERROR for parameters that contradict each other,
+   or another time. */
 int rollrig_wheel_start(rollrig_wheel* wheel, double time_s);
-/* Goes on by step_s [s], more than 0 and at most 1e5 times steps.longest_s.
+/* Goes on by step_s [s], more than 0 and at most 1e5 times steps.longest_s, and up to the time 1e10 s.
    Equations: docs/physics.md, DrivenWheel; Runge-Kutta of order 4. Validity: docs/limits_of_validity.md.
    Errors: ROLLRIG_INPUT_ERROR for a step or a slope that is not allowed, ROLLRIG_RUN_FAILED for a state that no tire
    can have; after either, nothing has changed. */

@@ -2,8 +2,10 @@
 #include "rollrig/c_api.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
@@ -113,6 +115,8 @@ TEST_CASE("the C API says what is wrong", "[fast]") {
   CHECK(rollrig_wheel_get(nullptr, 0, nullptr) == ROLLRIG_INPUT_ERROR);
   CHECK(rollrig_wheel_load(tire.get(), "abc", 3) == ROLLRIG_INPUT_ERROR);
   CHECK(rollrig_wheel_load(tire.get(), "abc", -3) == ROLLRIG_INPUT_ERROR);
+  CHECK(rollrig_wheel_start(tire.get(), 1e14) == ROLLRIG_INPUT_ERROR);
+  CHECK_THAT(rollrig_last_error(), Catch::Contains("-1e+10 to 1e+10 s"));
   REQUIRE(rollrig_wheel_start(tire.get(), 0.0) == ROLLRIG_OK);
   int load = rollrig_wheel_find_variable(tire.get(), "load_N");
   double one = 1.0;
@@ -125,6 +129,14 @@ TEST_CASE("the C API says what is wrong", "[fast]") {
   CHECK(rollrig_run_carry_out("{\"scenari\": \"warm_up\"}") == nullptr);
   CHECK_THAT(rollrig_last_error(), Catch::Contains("scenario"));
   CHECK(rollrig_run_carry_out("[") == nullptr);
+  for (const char* input : {"{\"scenario\": \"warm_up\", \"tire\": \"a50\\u0000b\"}",
+                            "{\"scenario\": \"warm_up\", \"settings\": {\"program\": \"a\\u0000b\"}}"}) {
+    CHECK(rollrig_run_carry_out(input) == nullptr);
+    CHECK_THAT(rollrig_last_error(), Catch::Contains("NUL character"));
+  }
+  CHECK(rollrig_run_carry_out(nullptr) == nullptr);
+  CHECK(rollrig_run_carry_out("{\"scenario\": \"warm_up\", \"tire\": 5}") == nullptr);
+  CHECK(rollrig_run_carry_out("{\"scenario\": \"warm_up\", \"settings\": [1]}") == nullptr);
   CHECK(rollrig_run_json(nullptr) == nullptr);
 }
 
@@ -146,6 +158,112 @@ TEST_CASE("each thread has the last error of its own calls", "[fast]") {
   CHECK(rollrig_last_error() == mine);
   CHECK(rollrig_wheel_start(tire.get(), 0.0) == ROLLRIG_OK);
   CHECK(rollrig_last_error() == std::string());
+}
+
+TEST_CASE("a hundred thousand random calls of the C API crash nothing and leave a wheel that works", "[fast]") {
+  const WheelPointer tire(rollrig_wheel_create("a50", "drum_2m"));
+  std::mt19937 random(5);
+  const auto pick = [&random](std::size_t count) { return static_cast<int>(random() % count); };
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const double numbers[] = {NAN, kNone, -kNone, 0.0, -1.0, 1.0, 0.1, 25.0, 300.0, 5000.0, 1e300, 1e-300, 1e11};
+  const auto number = [&] { return numbers[pick(std::size(numbers))]; };
+  const int variables = rollrig_wheel_variable_count(tire.get());
+  const int states = rollrig_wheel_state_count(tire.get());
+  std::vector<char> bytes(1);
+  int counts[4] = {};  // by status; 3 is ROLLRIG_RUN_FAILED
+  for (int call = 0; call < 100000; ++call) {
+    rollrig_wheel* wheel = pick(50) == 0 ? nullptr : tire.get();
+    double values[16];
+    int indices[4];
+    for (double& value : values) value = pick(2) == 0 ? 300.0 : number();
+    for (int& index : indices) index = pick(static_cast<std::size_t>(variables) + 4) - 2;
+    double* given = pick(20) == 0 ? nullptr : values;
+    const int count = pick(2) == 0 ? states : pick(8) - 1;
+    int status = ROLLRIG_OK;
+    switch (pick(13)) {
+      case 0:
+      case 1:
+        status = rollrig_wheel_set(wheel, indices[0], number());
+        break;
+      case 2:
+        status = rollrig_wheel_get(wheel, indices[0], given);
+        break;
+      case 3:
+        status = rollrig_wheel_set_slope(wheel, indices[0], number());
+        break;
+      case 4:
+        if (pick(10) == 0) status = rollrig_wheel_start(wheel, number());
+        break;
+      case 5:
+        status = rollrig_wheel_step(wheel, number());
+        break;
+      case 6:
+        if (pick(40) == 0) status = rollrig_wheel_reset(wheel);
+        break;
+      case 7:
+        status = rollrig_wheel_get_states(wheel, given, count);
+        break;
+      case 8:
+        status = rollrig_wheel_set_states(wheel, given, count);
+        break;
+      case 9:
+        status = rollrig_wheel_get_rates(wheel, given, count);
+        break;
+      case 10:
+        status = rollrig_wheel_differentiate(wheel, pick(20) == 0 ? nullptr : indices, pick(6) - 1, indices,
+                                             pick(6) - 1, given, pick(20) == 0 ? nullptr : values + 4);
+        break;
+      case 11:
+        bytes.resize(static_cast<std::size_t>(rollrig_wheel_saved_size(tire.get())));
+        status =
+            rollrig_wheel_save(wheel, pick(20) == 0 ? nullptr : bytes.data(), static_cast<int>(bytes.size()) - pick(2));
+        break;
+      default:
+        if (pick(2) == 0) bytes[static_cast<std::size_t>(pick(bytes.size()))] = static_cast<char>(random());
+        status = rollrig_wheel_load(wheel, pick(20) == 0 ? nullptr : bytes.data(),
+                                    pick(5) == 0 ? pick(200) - 50 : static_cast<int>(bytes.size()));
+    }
+    REQUIRE((status == ROLLRIG_OK || status == ROLLRIG_INPUT_ERROR || status == ROLLRIG_RUN_FAILED));
+    REQUIRE((status == ROLLRIG_OK || *rollrig_last_error() != '\0'));
+    if (wheel == nullptr && status == ROLLRIG_OK) continue;  // one that was not made
+    ++counts[status];
+  }
+  CHECK(counts[ROLLRIG_OK] > 10000);
+  CHECK(counts[ROLLRIG_INPUT_ERROR] > 10000);
+  REQUIRE(rollrig_wheel_reset(tire.get()) == ROLLRIG_OK);
+  const WheelPointer fresh(rollrig_wheel_create("a50", "drum_2m"));
+  for (const WheelPointer* one : {&tire, &fresh}) {
+    REQUIRE(rollrig_wheel_start(one->get(), 0.0) == ROLLRIG_OK);
+    set(*one, "speed_m_s", 20.0);
+    REQUIRE(rollrig_wheel_step(one->get(), 60.0) == ROLLRIG_OK);
+  }
+  CHECK(get(tire, "liner_temperature_K") == get(fresh, "liner_temperature_K"));
+}
+
+TEST_CASE("wheels and runs of the C API in threads give what they give alone", "[fast]") {
+  const char* input = R"({"scenario": "warm_up", "tire": "a50", "fidelity": "quasi_static"})";
+  const auto work = [input](std::string& found) {
+    const WheelPointer tire(rollrig_wheel_create("a50", "road"));
+    const int speed = rollrig_wheel_find_variable(tire.get(), "speed_m_s");
+    const int liner = rollrig_wheel_find_variable(tire.get(), "liner_temperature_K");
+    bool is_good = rollrig_wheel_start(tire.get(), 0.0) == ROLLRIG_OK;
+    for (int i = 0; i < 200; ++i) {
+      is_good = is_good && rollrig_wheel_set(tire.get(), speed, 10.0 + 0.1 * i) == ROLLRIG_OK;
+      is_good = is_good && rollrig_wheel_step(tire.get(), 1.0) == ROLLRIG_OK;
+    }
+    double liner_K = 0.0;
+    is_good = is_good && rollrig_wheel_get(tire.get(), liner, &liner_K) == ROLLRIG_OK;
+    const RunPointer run(rollrig_run_carry_out(input));
+    if (is_good && run != nullptr) found = std::to_string(liner_K) + rollrig_run_json(run.get());
+  };
+  std::string alone;
+  work(alone);
+  REQUIRE_FALSE(alone.empty());
+  std::vector<std::string> found(8);
+  std::vector<std::thread> threads;
+  for (std::string& each : found) threads.emplace_back([&work, &each] { work(each); });
+  for (std::thread& thread : threads) thread.join();
+  for (const std::string& each : found) CHECK((each == alone));
 }
 
 TEST_CASE("a whole test by the C API is that of the program", "[fast]") {
