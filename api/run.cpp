@@ -132,8 +132,8 @@ std::vector<std::string> list_scenarios_with_uncertainty() {
 }
 
 void Run::check(const UncertaintyOptions& uncertainty) const {
-  if (!uncertainty.budget && uncertainty.monte_carlo_trials == 0) return;
-  if (!has_uncertainty()) {
+  const bool is_asked = uncertainty.budget || uncertainty.monte_carlo_trials != 0;
+  if (is_asked && !has_uncertainty()) {
     throw InputError({fmt::format("the results of scenario '{}' have no uncertainty budget", scenario()),
                       "command line", 0, uncertainty.monte_carlo_trials != 0 ? "--monte-carlo" : "--uncertainty", "",
                       fmt::format("a scenario with one: {}", fmt::join(list_scenarios_with_uncertainty(), ", ")), ""});

@@ -76,10 +76,10 @@ const CLI::App* find_subcommand(const CLI::App& app, const std::string& name);
 /// Names of its subcommands.
 std::vector<std::string> list_subcommands(const CLI::App& app);
 
-/// --threads, 0 where it is not given.
+/// --threads; 0, as where it is not given: as many as the machine has, as in the library.
 inline void add_threads(CLI::App& command, int& threads,
-                        const std::string& doc = "Threads [as many as the machine has]") {
-  command.add_option("--threads", threads, doc)->check(in_range(1, 1024));
+                        const std::string& doc = "Threads; 0 for as many as the machine has [0]") {
+  command.add_option("--threads", threads, doc)->check(in_range(0, 1024));
 }
 
 /// For a command that does not share its work: throws InputError where mpirun or srun has started several processes,

@@ -14,7 +14,7 @@ void add_serve_options(CLI::App& command, ServeOptions& options) {
   add_files("--tire", options.tires, "A tire file to choose beside the assets; may be repeated");
   add_files("--rig", options.rigs, "Likewise a rig file");
   add_files("--vehicle", options.vehicles, "Likewise a vehicle file");
-  add_threads(command, options.threads, "Threads of a diagnosis [all but one of the machine]");
+  add_threads(command, options.threads, "Threads of a diagnosis; 0 for all but one of the machine [0]");
 }
 
 }  // namespace rollrig::cli
