@@ -74,9 +74,18 @@ void require_speeds(double from_m_s, double to_m_s) {
 void require_bounds(const RoadLoadBounds& bounds) {
   constexpr const char* kNames[]{"A", "B", "C"};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (bounds.lower[i] <= bounds.upper[i]) continue;
-    throw option_error(fmt::format("the bounds of {} have their ends swapped", kNames[i]), "--bounds",
-                       fmt::format("{:g}:{:g} in SI units", bounds.lower[i], bounds.upper[i]), "from <= to");
+    const double from = bounds.lower[i];
+    const double to = bounds.upper[i];
+    const auto refuse = [&](const std::string& what, const std::string& allowed) {
+      throw option_error(what, "--bounds", fmt::format("{:g}:{:g} in SI units", from, to), allowed);
+    };
+    if (std::isnan(from) || std::isnan(to)) {
+      refuse(fmt::format("a bound of {} is not a number", kNames[i]), "a number, or infinite for no bound");
+    }
+    if (from > to) refuse(fmt::format("the bounds of {} have their ends swapped", kNames[i]), "from <= to");
+    if (from == RoadLoadBounds::kNone || to == -RoadLoadBounds::kNone) {
+      refuse(fmt::format("no number is within the bounds of {}", kNames[i]), "from < infinity, to > -infinity");
+    }
   }
 }
 
