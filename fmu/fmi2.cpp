@@ -12,8 +12,8 @@
 namespace rollrig::fmu {
 namespace {
 
-/// Tells the importer. Its logger takes a format of printf, in which "#" stands before a variable as well; some take it
-/// for the text itself, so that it has no arguments.
+/// Passes a message to the importer's logger. The logger takes a format as printf does, in which "#" begins the
+/// reference of a variable. So "%" and "#" are doubled. The format has no arguments, since some loggers ignore them.
 void log_fmi2(const fmi2CallbackFunctions* callbacks, const char* name, LogCategory category,
               const std::string& message) {
   if (callbacks == nullptr || callbacks->logger == nullptr) return;
@@ -31,7 +31,7 @@ fmi2Status run_fmi2(fmi2Component component, const char* function, unsigned stag
   return instance.run(function, stages, [&] { body(instance); }) ? fmi2OK : fmi2Error;
 }
 
-/// The wheel has numbers alone: no variable of another type can be asked for.
+/// All variables are real numbers: a call for a variable of another type is refused.
 fmi2Status refuse_type(fmi2Component component, const char* function, unsigned stages, std::size_t count) {
   return run_fmi2(component, function, stages, [&](Instance&) {
     if (count > 0) refuse("there is no variable of this type");
@@ -44,7 +44,8 @@ void require_first_order(const fmi2Integer* order, std::size_t count) {
   refuse("only first derivatives of inputs are known");
 }
 
-/// A step is done when the call returns, so that there is nothing to ask for but the time.
+/// Answers a question about a step that is still being computed. There is none here: a step is done when fmi2DoStep
+/// returns. So `known` is the answer to some questions, and the others are discarded.
 template <class Value>
 fmi2Status tell_status(fmi2Component component, const char* function, Value* value, bool is_known, const Value& known) {
   const unsigned stages = kOnlyCoSimulation | kStepping | kTerminated;
@@ -66,7 +67,7 @@ const char* fmi2GetVersion() { return "2.0"; }
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String,
                               const fmi2CallbackFunctions* callbacks, fmi2Boolean, fmi2Boolean logging_on) {
-  // Why there is no instance is told in any case: nobody could switch its messages on.
+  // Logged whatever logging_on says: without an instance, nobody could switch messages on.
   const auto fail = [&](const char* why) {
     log_fmi2(callbacks, name, LogCategory::kError, std::string("fmi2Instantiate: ") + why);
     return nullptr;

@@ -11,7 +11,7 @@
 namespace rollrig::fmu {
 namespace {
 
-/// Tells the importer. "#" before a variable stands twice where it is none.
+/// Passes a message to the importer's logger. In a message, "#" begins the reference of a variable, so it is doubled.
 void log_fmi3(fmi3InstanceEnvironment environment, fmi3LogMessageCallback log, LogCategory category,
               const std::string& message) {
   if (log == nullptr) return;
@@ -27,7 +27,8 @@ fmi3Status run_fmi3(fmi3Instance given, const char* function, unsigned stages, B
   return instance.run(function, stages, [&] { body(instance); }) ? fmi3OK : fmi3Error;
 }
 
-/// What this FMU has none of: variables of other types, clocks, events of its own, configuration.
+/// Refuses a call for something that this FMU does not have: variables of other types, clocks, events, configuration.
+/// A call for none of them is no mistake.
 fmi3Status refuse_unless_none(fmi3Instance given, const char* function, std::size_t count = 1,
                               unsigned stages = kAnyStage) {
   return run_fmi3(given, function, stages, [&](Instance&) {
@@ -39,7 +40,7 @@ void require_same_count(std::size_t references, std::size_t values) {
   if (references != values) refuse("the number of values is not that of the variables");
 }
 
-/// Why there is no instance is told in any case: nobody could switch its messages on.
+/// Why it fails is logged whatever logging_on says: without an instance, nobody could switch messages on.
 fmi3Instance instantiate(const char* function, bool is_co_simulation, bool event_mode_used, fmi3String name,
                          fmi3String token, bool logging_on, fmi3InstanceEnvironment environment,
                          fmi3LogMessageCallback log) {
@@ -316,7 +317,8 @@ fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance given, size_t* count) {
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance given) {
-  return refuse_unless_none(given, "fmi3EnterStepMode");  // from event mode, which co-simulation has none of
+  return refuse_unless_none(given,
+                            "fmi3EnterStepMode");  // it leaves event mode, which co-simulation does not have here
 }
 
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance given, const fmi3ValueReference[], size_t count, const int32_t[],

@@ -42,7 +42,7 @@ std::string explain_effect(const std::string& name);
 std::vector<std::string> explainable_names();
 /// Names that DiagnosisOptions::only and ::without take.
 std::vector<std::string> comparable_names();
-/// What every diagnosis checks first, but for diagnose_pair(), which knows more effects.
+/// Checks names of effects, as all functions that take DiagnosisOptions do first; diagnose_pair() allows more effects.
 /// Throws InputError: an effect that is not among comparable_names(), with the nearest; one that is in both lists.
 void require_comparable_effects(const std::vector<std::string>& only, const std::vector<std::string>& without);
 
