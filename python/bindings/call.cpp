@@ -22,8 +22,9 @@ constexpr auto kUntilEnd = 10s;       // Assumed: longer than any step of a calc
   while (true) std::this_thread::sleep_for(1h);
 }
 
-/// Takes the GIL back. Once Python ends, it ends a thread that does so by pthread_exit(), which C++ sees as an
-/// exception; destructors without the GIL, or a function that is noexcept, would then abort the process.
+/// Takes the GIL back. When Python is ending, it ends each thread that asks for the GIL by pthread_exit(). In C++ that
+/// is an exception: it would run destructors without the GIL, and abort the process in a function that is noexcept. So
+/// the thread is caught here, and waits until the process is gone.
 void take_gil(PyThreadState* state) {
   try {
     PyEval_RestoreThread(state);
@@ -43,7 +44,7 @@ class RunningCalls {
   void end() {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (--count_ > 0) return;
-    if (!is_ending_) clear_interrupt();  // an interruption is one of the process
+    if (!is_ending_) clear_interrupt();  // it was requested of all calls, and none is left
     all_ended_.notify_all();
   }
   void end_all() {
@@ -77,8 +78,8 @@ struct Counted {
   Counted& operator=(const Counted&) = delete;
 };
 
-/// Takes the GIL back after a call, or after a look at one. Where Python ends, the call has ended, and this thread
-/// never goes on.
+/// Takes the GIL back after a call, or after a look at one. When Python is ending, the call must have ended; then the
+/// call is counted as ended, and this thread waits until the process is gone.
 void take_gil(PyThreadState* state, bool is_ending) {
   if (is_ending) {
     running_calls().end();
@@ -87,24 +88,26 @@ void take_gil(PyThreadState* state, bool is_ending) {
   take_gil(state);
 }
 
-bool is_interrupt_of_main_thread(const py::error_already_set& error) {
-  if (!error.matches(PyExc_KeyboardInterrupt)) return false;
-  const py::module_ threading = py::module_::import("threading");
-  return threading.attr("current_thread")().is(threading.attr("main_thread")());
+/// Runs the signal handlers of Python, which it does in the main thread alone. Ctrl-C stops the calls of all threads.
+void run_signal_handlers() {
+  if (PyErr_CheckSignals() == 0) return;
+  const py::error_already_set error;
+  if (error.matches(PyExc_KeyboardInterrupt)) request_interrupt();
+  throw error;
 }
 
-/// What the thread that works tells the thread that waits.
+/// The thread that works, and what it tells the thread that waits.
 class Call {
  public:
   Call(const std::function<void(const Progress&)>& work, bool tells_progress) {
     worker_ = std::thread([this, &work, tells_progress] { do_work(work, tells_progress); });
   }
-  /// The work has ended.
+  /// The work must have ended.
   ~Call() { worker_.join(); }
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
-  /// Whether it has ended within the time.
+  /// Waits without the GIL, until the work has ended or it is time to look again. Returns whether it has ended.
   bool wait() {
     PyThreadState* state = PyEval_SaveThread();
     bool has_ended = false;
@@ -118,7 +121,7 @@ class Call {
     take_gil(state, is_ending);
     return has_ended;
   }
-  /// Shows news, with the GIL.
+  /// Calls `show` where the work has told of progress since the last time.
   void show(const py::object& show) {
     double done = 0.0;
     std::string stage;
@@ -177,13 +180,9 @@ void carry_out(const py::object& show, const std::function<void(const Progress&)
   Call call(work, !show.is_none());
   try {
     while (!call.wait()) {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      run_signal_handlers();
       if (!show.is_none()) call.show(show);
     }
-  } catch (const py::error_already_set& error) {
-    if (is_interrupt_of_main_thread(error)) request_interrupt();
-    call.stop();
-    throw;
   } catch (...) {
     call.stop();
     throw;

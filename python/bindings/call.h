@@ -11,10 +11,12 @@
 
 namespace rollrig::python {
 
-/// Does work that may take long in a thread of its own, which never touches Python. This thread waits without the GIL,
-/// looks for Ctrl-C, and calls `show(done, stage)` several times a second where it is not None.
-/// Errors  what the work throws; what a signal handler or `show` raises: the work is stopped before it is passed on.
-///         KeyboardInterrupt of the main thread stops all calls of the process.
+/// Does long work in a new thread, which never touches Python. The calling thread waits for it without the GIL. Several
+/// times a second it takes the GIL, runs Python's signal handlers and, unless `show` is None, calls `show(done,
+/// stage)`.
+/// Errors  what the work throws, or what a signal handler or `show` raises; either of these stops the work first.
+///         Ctrl-C stops all calls of the process, since the handler raises KeyboardInterrupt in the main thread alone.
+///         A KeyboardInterrupt that `show` raises stops this call alone, as every other exception of `show`.
 void carry_out(const py::object& show, const std::function<void(const Progress&)>& work);
 
 /// The same for work that returns something.
@@ -25,12 +27,12 @@ auto call(const py::object& show, Work&& work) {
   return std::move(*result);
 }
 
-/// Does short work in this thread.
+/// Does short work in the calling thread. Ctrl-C is noticed after it.
 void do_without_gil(const std::function<void()>& work);
 
-/// Stops all calls, and waits some seconds for their end: afterwards Python ends, and the objects of the library are
-/// destroyed. Threads that were in a call never return to Python, which would end them in the midst of C++. Later calls
-/// throw.
+/// Stops all calls and waits until they have ended, but not longer than some seconds. To be called when Python ends,
+/// since the objects of the library are destroyed after that. A thread that was in a call never returns to Python:
+/// Python would end the thread while C++ functions are still on its stack. Later calls throw.
 void end_calls();
 
 }  // namespace rollrig::python

@@ -16,11 +16,7 @@ void keep_small_freed_memory() {
   std::free(block);
 }
 
-}  // namespace
-}  // namespace rollrig::python
-
-PYBIND11_MODULE(_rollrig, module) {
-  using namespace rollrig::python;
+void fill(py::module_& module) {
   module.doc() = "The C++ API of rollrig as the package rollrig uses it; use the package instead.";
   module.attr("version") = rollrig::library_version();
   keep_small_freed_memory();
@@ -36,4 +32,42 @@ PYBIND11_MODULE(_rollrig, module) {
   bind_new(module);
   bind_assets(module);
   bind_results(module);
+}
+
+/// The module, which is made once: pybind11 knows its types for the whole process. A subinterpreter is refused before
+/// it touches pybind11, which would wait there for a GIL that the same thread holds.
+PyObject* make_module(PyObject*, PyModuleDef*) {
+  if (PyInterpreterState_Get() != PyInterpreterState_Main()) {
+    PyErr_SetString(PyExc_ImportError, "rollrig works in the main interpreter alone, not in a subinterpreter");
+    return nullptr;
+  }
+  static PyObject* made = nullptr;
+  try {
+    if (made == nullptr) {
+      auto module = py::reinterpret_steal<py::module_>(PyModule_New("rollrig._rollrig"));
+      if (!module) return nullptr;
+      fill(module);
+      made = module.release().ptr();
+    }
+  } catch (py::error_already_set& error) {
+    py::raise_from(error, PyExc_ImportError, "rollrig cannot be initialized");
+  } catch (const std::exception& error) {
+    PyErr_SetString(PyExc_ImportError, error.what());
+  }
+  Py_XINCREF(made);
+  return made;
+}
+
+}  // namespace
+}  // namespace rollrig::python
+
+/// By hand, since PYBIND11_MODULE touches pybind11 before anything can be checked, and Python copies what it makes into
+/// subinterpreters.
+extern "C" PYBIND11_EXPORT PyObject* PyInit__rollrig() {
+  PYBIND11_CHECK_PYTHON_VERSION
+  static PyModuleDef_Slot slots[] = {{Py_mod_create, reinterpret_cast<void*>(&rollrig::python::make_module)},
+                                     {0, nullptr}};
+  static PyModuleDef definition = {
+      PyModuleDef_HEAD_INIT, "_rollrig", nullptr, 0, nullptr, slots, nullptr, nullptr, nullptr};
+  return PyModuleDef_Init(&definition);
 }
