@@ -33,10 +33,11 @@ py::list define_diagnoses(const std::string& folder, const py::dict& options) {
 }
 
 std::shared_ptr<CampaignState> carry_out_part(const ItemCampaign& campaign, const py::object& show,
-                                              const std::optional<std::string>& part, int threads) {
-  const CampaignPart wanted = part.has_value() ? read_campaign_part(*part) : CampaignPart{};
+                                              const py::object& part, const py::object& threads) {
+  const CampaignPart wanted = part.is_none() ? CampaignPart{} : read_campaign_part(to_string(part, "part"));
+  const int count = read_argument<int>(threads, "threads");
   return std::make_shared<CampaignState>(
-      call(show, [&](const Progress& progress) { return campaign.carry_out(wanted, threads, progress); }));
+      call(show, [&](const Progress& progress) { return campaign.carry_out(wanted, count, progress); }));
 }
 
 py::str write_csv(const ItemCampaign& campaign) {
@@ -65,9 +66,10 @@ void bind_campaign(py::module_& module) {
            })
       .def("write_csv", &write_csv)
       .def("calc_sensitivity",
-           [](const ItemCampaign& at, const std::string& result) {
+           [](const ItemCampaign& at, const py::object& result) {
+             const std::string name = to_string(result, "result");
              return std::make_shared<Report>(
-                 call(py::none(), [&](const Progress&) { return at.calc_sensitivity(result); }));
+                 call(py::none(), [&](const Progress&) { return at.calc_sensitivity(name); }));
            })
       .def("summarize_diagnoses", [](const ItemCampaign& at) {
         return std::make_shared<Report>(call(py::none(), [&](const Progress&) { return at.summarize_diagnoses(); }));

@@ -94,7 +94,8 @@ void bind_diagnose(py::module_& module) {
   module.def("diagnose_pair", &diagnose_machines);
   module.def("advance_loop", &advance);
   module.def("plan_campaign", &plan);
-  module.def("explain_effect", [](const std::string& name) { return to_str(explain_effect(name)); });
+  module.def("explain_effect",
+             [](const py::object& effect) { return to_str(explain_effect(to_string(effect, "effect"))); });
 }
 
 }  // namespace rollrig::python

@@ -87,18 +87,19 @@ RoadLoadProcedureOptions read_procedure(const std::string& method, const py::dic
 }
 
 /// Without a method by least squares, else by the procedure of that name.
-std::shared_ptr<Fit> fit_coastdowns(const py::object& show, const std::string& file, const std::string& method,
-                                    const std::vector<std::string>& sessions, bool skip_bad_rows,
-                                    const py::dict& uncertainty, const py::dict& given) {
+std::shared_ptr<Fit> fit_coastdowns(const py::object& show, const std::string& file, const py::object& given_method,
+                                    const py::object& given_sessions, bool skip_bad_rows, const py::dict& uncertainty,
+                                    const py::dict& given) {
+  const auto sessions = read_argument<std::vector<std::string>>(given_sessions, "sessions");
   const UncertaintyOptions asked = read_uncertainty(uncertainty);
   const BadRows bad_rows = to_bad_rows(skip_bad_rows);
-  if (method.empty()) {
+  if (given_method.is_none()) {
     const RoadLoadFitOptions options = read_fit_options(given);
     return to_fit(call(show, [&](const Progress& progress) {
       return fit_road_load(file, options, sessions, bad_rows, asked, progress);
     }));
   }
-  const RoadLoadProcedureOptions options = read_procedure(method, given);
+  const RoadLoadProcedureOptions options = read_procedure(to_string(given_method, "method"), given);
   return to_fit(call(show, [&](const Progress& progress) {
     return evaluate_road_load(file, options, sessions, bad_rows, asked, progress);
   }));

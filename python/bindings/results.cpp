@@ -20,8 +20,9 @@ namespace rollrig::python {
 namespace {
 
 std::shared_ptr<Report> compare_all(const py::object& show, const std::vector<std::string>& compared,
-                                    const std::string& scenario, bool skip_bad_rows) {
-  const CompareInput input{compared, scenario, to_bad_rows(skip_bad_rows)};
+                                    const py::object& scenario, bool skip_bad_rows) {
+  const CompareInput input{compared, scenario.is_none() ? "" : to_string(scenario, "scenario"),
+                           to_bad_rows(skip_bad_rows)};
   return std::make_shared<Comparison>(call(show, [&](const Progress& progress) { return compare(input, progress); }));
 }
 
@@ -35,19 +36,19 @@ std::shared_ptr<Report> make_tire_label(const py::dict& given) {
   return std::make_shared<TireLabel>(call(py::none(), [&](const Progress&) { return make_label(input); }));
 }
 
-LossConditions read_conditions(const py::dict& given) {
+LossConditions read_conditions(const py::object& given, const std::string& argument) {
   LossConditions conditions;
-  Keywords keywords(given);
+  Keywords keywords(given, argument);
   keywords.read("drum_curvature_per_m", conditions.drum_curvature_per_m);
   keywords.read("tire_diameter_m", conditions.tire_diameter_m).read("pressure_Pa", conditions.pressure_Pa);
   keywords.read("ambient_K", conditions.ambient_K).read("load_N", conditions.load_N).require_all_read();
   return conditions;
 }
 
-std::shared_ptr<Report> convert(const py::dict& given, const py::dict& from, const py::dict& to) {
+std::shared_ptr<Report> convert(const py::dict& given, const py::object& measured, const py::object& wanted) {
   ConversionInput input;
-  input.from = read_conditions(from);
-  input.to = read_conditions(to);
+  input.from = read_conditions(measured, "measured");
+  input.to = read_conditions(wanted, "wanted");
   Keywords keywords(given);
   keywords.read("force_N", input.loss.force_N).read("rrc_N_per_kN", input.loss.rrc_N_per_kN).read("tire", input.tire);
   keywords.read("pressure_exponent", input.pressure_exponent).read("load_exponent", input.load_exponent);
@@ -68,12 +69,14 @@ std::shared_ptr<Report> align_machine(const py::object& show, const py::dict& un
       call(show, [&](const Progress& progress) { return align(input, asked, progress); }));
 }
 
-std::shared_ptr<Report> align_value(const py::dict& given) {
+std::shared_ptr<Report> align_value(const py::object& show, const py::dict& uncertainty, const py::dict& given) {
   AlignedValueInput input;
   Keywords keywords(given);
   keywords.read("alignment", input.alignment).read("rrc_N_per_kN", input.rrc_N_per_kN);
   keywords.read("measurements", input.measurements).read("on", input.on).require_all_read();
-  return std::make_shared<AlignedValue>(apply_alignment(input));
+  const UncertaintyOptions asked = read_uncertainty(uncertainty);
+  return std::make_shared<AlignedValue>(
+      call(show, [&](const Progress& progress) { return apply_alignment(input, asked, progress); }));
 }
 
 py::bytes export_bytes(const std::string& source, bool is_mat, bool skip_bad_rows) {
@@ -101,9 +104,10 @@ py::str make_vecto(const py::dict& given) {
   return to_str(call(py::none(), [&](const Progress&) { return make_vecto_tire(input).xml; }));
 }
 
-std::shared_ptr<Report> regress_folder(const py::object& show, const std::string& folder, int threads) {
+std::shared_ptr<Report> regress_folder(const py::object& show, const std::string& folder, const py::object& threads) {
+  const int count = read_argument<int>(threads, "threads");
   return std::make_shared<Regression>(call(show, [&](const Progress& progress) {
-    return regress(folder, {threads, progress});
+    return regress(folder, {count, progress});
   }));
 }
 

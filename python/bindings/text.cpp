@@ -5,12 +5,23 @@
 namespace rollrig::python {
 namespace {
 
+pybind11::bytes encode(pybind11::handle text, const char* errors) {
+  PyObject* made = PyUnicode_AsEncodedString(text.ptr(), "utf-8", errors);
+  if (made == nullptr) throw pybind11::error_already_set();
+  return pybind11::reinterpret_steal<pybind11::bytes>(made);
+}
+
+InputError bad_text(const std::string& argument, const std::string& what, const std::string& allowed,
+                    pybind11::handle given) {
+  return InputError({"argument '" + argument + "' has a " + what, "", 0, argument, show(given), allowed, ""});
+}
+
 pybind11::bytes to_bytes(pybind11::handle given, const std::string& argument) {
-  PyObject* made = PyUnicode_AsEncodedString(given.ptr(), "utf-8", "surrogateescape");
-  if (made != nullptr) return pybind11::reinterpret_steal<pybind11::bytes>(made);
-  PyErr_Clear();
-  throw InputError({"argument '" + argument + "' holds half of a character", "", 0, argument,
-                    pybind11::repr(given).cast<std::string>(), "text in Unicode", ""});
+  try {
+    return encode(given, "surrogateescape");
+  } catch (const pybind11::error_already_set&) {
+    throw bad_text(argument, "lone surrogate", "text in Unicode", given);
+  }
 }
 
 }  // namespace
@@ -20,14 +31,21 @@ std::string to_string(pybind11::handle given, const std::string& argument) {
   if (PyBytes_Check(given.ptr()) != 0) {
     const auto text = static_cast<std::string>(pybind11::reinterpret_borrow<pybind11::bytes>(given));
     if (text.find('\0') == std::string::npos) return text;
-    throw InputError({"argument '" + argument + "' holds a zero", "", 0, argument,
-                      pybind11::repr(given).cast<std::string>(), "text without one", ""});
+    throw bad_text(argument, "NUL character", "text without one", given);
   }
   PyObject* path = PyOS_FSPath(given.ptr());
   if (path != nullptr) return to_string(pybind11::reinterpret_steal<pybind11::object>(path), argument);
   PyErr_Clear();
-  throw pybind11::type_error("argument '" + argument + "': a text or a path is expected, not " +
-                             Py_TYPE(given.ptr())->tp_name);
+  throw wrong_type(argument, "a text or a path is expected", given);
+}
+
+std::string show(pybind11::handle value) {
+  const pybind11::object shown = pybind11::module_::import("rollrig.settings").attr("show")(value);
+  return static_cast<std::string>(encode(shown, "backslashreplace"));
+}
+
+pybind11::type_error wrong_type(const std::string& argument, const std::string& expected, pybind11::handle given) {
+  return pybind11::type_error("argument '" + argument + "': " + expected + ", not " + show(given));
 }
 
 }  // namespace rollrig::python

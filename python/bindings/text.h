@@ -15,8 +15,13 @@ inline pybind11::str to_str(const std::string& text) {
 }
 
 /// Text of a str (surrogates become the bytes again), of bytes or of a path. `argument` stands in messages.
-/// Throws TypeError for what is none of them, and InputError for half of a character, or a zero, at which the names of
-/// files end.
+/// Throws TypeError for what is none of them, and InputError for a lone surrogate or a NUL character.
 std::string to_string(pybind11::handle given, const std::string& argument);
+
+/// A value as messages show it: its repr, or the start of a long one.
+std::string show(pybind11::handle value);
+
+/// "argument 'threads': a whole number is expected, not 'many'".
+pybind11::type_error wrong_type(const std::string& argument, const std::string& expected, pybind11::handle given);
 
 }  // namespace rollrig::python

@@ -46,7 +46,7 @@ def _unpickle_channel(values: Any, unit: str, name: str, is_writeable: bool) -> 
 
 
 def freeze(values: Any) -> Any:
-    """An array of a result, which cannot be changed: all who ask for it share it."""
+    """Makes an array of a result read-only. All callers get the same array, so that none may change it."""
     values.flags.writeable = False
     return values
 

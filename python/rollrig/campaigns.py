@@ -10,7 +10,7 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, make_run_input, take_given, to_count, to_list, to_names, to_path, to_paths
+from .settings import PathLike, make_run_input, take_given, to_list, to_names, to_path, to_paths, to_skip
 from .sweeps import Values, make_axes
 
 
@@ -50,7 +50,7 @@ class Campaign:
         * part: "3/10" is the third of ten parts; None is all.
         """
         with progress_display(progress) as show:
-            return CampaignState(self._campaign.carry_out(show, part, to_count(threads, "threads")))
+            return CampaignState(self._campaign.carry_out(show, part, threads))
 
     @property
     def state(self) -> CampaignState:
@@ -108,7 +108,7 @@ def new_campaign(folder: PathLike, scenario: PathLike, *,
     options = {"drawn": to_list(drawn, "drawn"), "drawn_sd": to_list(drawn_sd, "drawn_sd"), "list": list,
                "design": design, "points": points}
     _rollrig.define_run_campaign(to_path(folder, "folder"), make_run_input(scenario, names, settings),
-                                 make_axes(vary or {}), take_given(options))
+                                 make_axes({} if vary is None else vary), take_given(options))
     return Campaign(folder)
 
 
@@ -122,6 +122,6 @@ def new_diagnosis_campaign(folder: PathLike, sets: Sequence[PathLike], *,
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
     options = {"sets": to_paths(sets, "sets"), "only": to_names(only, "only"), "without": to_names(without, "without"),
-               "smallest_effect_percent": smallest_effect_percent, "skip_bad_rows": skip_bad_rows}
+               "smallest_effect_percent": smallest_effect_percent, "skip_bad_rows": to_skip(skip_bad_rows)}
     _rollrig.define_diagnosis_campaign(to_path(folder, "folder"), take_given(options))
     return Campaign(folder)

@@ -87,7 +87,7 @@ def diagnose(set: MeasurementSet | PathLike, *, only: Sequence[str] = (), withou
     given = {"only": to_names(only, "only"), "without": to_names(without, "without"), "threads": threads,
              "smallest_effect_percent": smallest_effect_percent}
     with progress_display(progress) as show:
-        return Diagnosis(_rollrig.diagnose(show, as_set(set, skip_bad_rows)._set, take_given(given)))
+        return Diagnosis(_rollrig.diagnose(show, as_set(set, "set", skip_bad_rows)._set, take_given(given)))
 
 
 def diagnose_fleet(folders: Sequence[PathLike], *, only: Sequence[str] = (), without: Sequence[str] = (),
@@ -117,7 +117,8 @@ def diagnose_pair(a: MeasurementSet | PathLike, b: MeasurementSet | PathLike, *,
     """
     given = {"only": to_names(only, "only"), "without": to_names(without, "without"), "threads": threads}
     with progress_display(progress) as show:
-        return Report(_rollrig.diagnose_pair(show, as_set(a, skip_bad_rows)._set, as_set(b, skip_bad_rows)._set,
+        return Report(_rollrig.diagnose_pair(show, as_set(a, "a", skip_bad_rows)._set,
+                                             as_set(b, "b", skip_bad_rows)._set,
                                              take_given(given)))
 
 
@@ -132,9 +133,10 @@ def advance_loop(set: PathLike, folder: PathLike, *, hours: float | None = None,
     :members DiagnosisOptions
     * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
-    given = {"set": set, "folder": folder, "hours": hours, "test_failed": test_failed, "only": to_names(only, "only"),
+    given = {"set": set, "folder": folder, "hours": hours,
+             "test_failed": to_flag(test_failed, "test_failed"), "only": to_names(only, "only"),
              "without": to_names(without, "without"), "threads": threads,
-             "smallest_effect_percent": smallest_effect_percent, "skip_bad_rows": skip_bad_rows}
+             "smallest_effect_percent": smallest_effect_percent, "skip_bad_rows": to_skip(skip_bad_rows)}
     with progress_display(progress) as show:
         return Loop(_rollrig.advance_loop(show, take_given(given)))
 

@@ -9,7 +9,7 @@ from .errors import InputError
 from .notebook import Progress, progress_display
 from .report import Report
 from .sets import MeasurementSet, as_set
-from .settings import PathLike, make_uncertainty_options, take_given, to_list, to_path, to_skip
+from .settings import PathLike, make_uncertainty_options, take_given, to_flag, to_list, to_path, to_skip
 from .values import Estimate
 
 Abc = Sequence[float]
@@ -45,9 +45,10 @@ def fit_tire(set: MeasurementSet | PathLike, *, name: str | None = None, load_ma
 
     :members TireFitOptions
     """
-    given = {"name": name, "load_map": load_map, "free_H": free_H, "threads": threads}
+    given = {"name": name, "load_map": to_flag(load_map, "load_map"),
+             "free_H": to_flag(free_H, "free_H"), "threads": threads}
     with progress_display(progress) as show:
-        return Fit(_rollrig.fit_tire(show, as_set(set, skip_bad_rows)._set, take_given(given)))
+        return Fit(_rollrig.fit_tire(show, as_set(set, "set", skip_bad_rows)._set, take_given(given)))
 
 
 def fit_road_load(file: PathLike, *, mass_kg: float | None = None, rotating_mass_kg: float | None = None,
@@ -57,7 +58,7 @@ def fit_road_load(file: PathLike, *, mass_kg: float | None = None, rotating_mass
                   bin_width_m_s: float | None = None, bounds: tuple[Abc, Abc] | None = None,
                   target: Abc | None = None, leave_out: Sequence[str] = (), per_mass: bool = False,
                   sessions: Sequence[str] = (), skip_bad_rows: bool = False, uncertainty: bool = False,
-                  monte_carlo: int = 0, threads: int = 0, progress: Progress = None) -> Fit:
+                  monte_carlo: int = 0, seed: int = 1, threads: int = 0, progress: Progress = None) -> Fit:
     """A, B, C of a vehicle by least squares.
 
     :api fit_road_load
@@ -66,8 +67,11 @@ def fit_road_load(file: PathLike, *, mass_kg: float | None = None, rotating_mass
       be a recording, which tells the vehicle.
 
     :members RoadLoadFitOptions
+    * uncertainty: whether the uncertainty budget of the results is wanted.
+    * monte_carlo: number of trials that check it; 0: none.
+    :members UncertaintyOptions
     """
-    if per_mass and (mass_kg is not None or rotating_mass_kg is not None):
+    if to_flag(per_mass, "per_mass") and (mass_kg is not None or rotating_mass_kg is not None):
         what = "per_mass and a mass exclude each other"
         raise InputError(what, key="per_mass", allowed="one of them")
     given = {"mass_kg": mass_kg, "rotating_mass_kg": rotating_mass_kg, "drag_area_m2": drag_area_m2,
@@ -76,9 +80,9 @@ def fit_road_load(file: PathLike, *, mass_kg: float | None = None, rotating_mass
              "speed_to_m_s": speed_to_m_s, "bin_width_m_s": bin_width_m_s, "bounds": bounds, "target": target,
              "leave_out": to_list(leave_out, "leave_out"), "recorded_vehicle": mass_kg is None and not per_mass}
     with progress_display(progress) as show:
-        return Fit(_rollrig.fit_road_load(show, to_path(file, "file"), "", to_list(sessions, "sessions"),
+        return Fit(_rollrig.fit_road_load(show, to_path(file, "file"), None, to_list(sessions, "sessions"),
                                           to_skip(skip_bad_rows),
-                                          make_uncertainty_options(uncertainty, monte_carlo, threads),
+                                          make_uncertainty_options(uncertainty, monte_carlo, seed, threads),
                                           take_given(given)))
 
 
@@ -89,23 +93,27 @@ def evaluate_road_load(file: PathLike, method: str, *, mass_kg: float | None = N
                        speed_to_m_s: float | None = None, yaw_degree: int | None = None,
                        wheel_radius_m: float | None = None, sensor_accuracy: bool = True,
                        leave_out: Sequence[str] = (), sessions: Sequence[str] = (), skip_bad_rows: bool = False,
-                       uncertainty: bool = False, monte_carlo: int = 0, threads: int = 0,
+                       uncertainty: bool = False, monte_carlo: int = 0, seed: int = 1, threads: int = 0,
                        progress: Progress = None) -> Fit:
     """
     :api evaluate_road_load
 
     * method: "wltp", "j2263", "j1263" or "torque-meter".
     :members RoadLoadProcedureOptions
+    * uncertainty: whether the uncertainty budget of the results is wanted.
+    * monte_carlo: number of trials that check it; 0: none.
+    :members UncertaintyOptions
     """
     given = {"mass_kg": mass_kg, "rotating_mass_kg": rotating_mass_kg, "corrected_to_mass_kg": corrected_to_mass_kg,
              "reference_temperature_K": reference_temperature_K, "reference_pressure_Pa": reference_pressure_Pa,
              "rolling_fall_per_K": rolling_fall_per_K, "speed_from_m_s": speed_from_m_s,
              "speed_to_m_s": speed_to_m_s, "yaw_degree": yaw_degree, "wheel_radius_m": wheel_radius_m,
-             "sensor_accuracy": sensor_accuracy, "leave_out": to_list(leave_out, "leave_out")}
+             "sensor_accuracy": to_flag(sensor_accuracy, "sensor_accuracy"),
+             "leave_out": to_list(leave_out, "leave_out")}
     with progress_display(progress) as show:
         return Fit(_rollrig.fit_road_load(show, to_path(file, "file"), method, to_list(sessions, "sessions"),
                                           to_skip(skip_bad_rows),
-                                          make_uncertainty_options(uncertainty, monte_carlo, threads),
+                                          make_uncertainty_options(uncertainty, monte_carlo, seed, threads),
                                           take_given(given)))
 
 
@@ -123,35 +131,48 @@ def default_road_load(*, mass_kg: float, width_m: float, height_m: float, tire_c
 
 def fit_j2452(path: PathLike, *, maximum_load_N: float | None = None, base_pressure_Pa: float | None = None,
               warm_pressure: bool = False, urban_cycle: str | None = None, highway_cycle: str | None = None,
-              uncertainty: bool = False, monte_carlo: int = 0, threads: int = 0, progress: Progress = None) -> Fit:
+              uncertainty: bool = False, monte_carlo: int = 0, seed: int = 1, threads: int = 0,
+              progress: Progress = None) -> Fit:
     """
     :api fit_j2452
 
     :members RollingLawOptions
+    * uncertainty: whether the uncertainty budget of the results is wanted.
+    * monte_carlo: number of trials that check it; 0: none.
+    :members UncertaintyOptions
     """
-    given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa, "warm_pressure": warm_pressure,
+    given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa,
+             "warm_pressure": to_flag(warm_pressure, "warm_pressure"),
              "urban_cycle": urban_cycle, "highway_cycle": highway_cycle}
     with progress_display(progress) as show:
         return Fit(_rollrig.fit_law(show, "j2452", to_path(path, "path"),
-                                    make_uncertainty_options(uncertainty, monte_carlo, threads), take_given(given)))
+                                    make_uncertainty_options(uncertainty, monte_carlo, seed, threads),
+                                    take_given(given)))
 
 
 def fit_j1269(path: PathLike, *, proportional: bool = False, maximum_load_N: float | None = None,
               base_pressure_Pa: float | None = None, warm_pressure: bool = False, uncertainty: bool = False,
-              monte_carlo: int = 0, threads: int = 0, progress: Progress = None) -> Fit:
+              monte_carlo: int = 0, seed: int = 1, threads: int = 0, progress: Progress = None) -> Fit:
     """
     :api fit_j1269
 
     :members RollingLawOptions
+    * uncertainty: whether the uncertainty budget of the results is wanted.
+    * monte_carlo: number of trials that check it; 0: none.
+    :members UncertaintyOptions
     """
-    given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa, "warm_pressure": warm_pressure}
+    given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa,
+             "warm_pressure": to_flag(warm_pressure, "warm_pressure")}
+    law = "j1269_proportional" if to_flag(proportional, "proportional") else "j1269"
     with progress_display(progress) as show:
-        return Fit(_rollrig.fit_law(show, "j1269_proportional" if proportional else "j1269", to_path(path, "path"),
-                                    make_uncertainty_options(uncertainty, monte_carlo, threads), take_given(given)))
+        return Fit(_rollrig.fit_law(show, law, to_path(path, "path"),
+                                    make_uncertainty_options(uncertainty, monte_carlo, seed, threads),
+                                    take_given(given)))
 
 
 def fit_drum_coastdown(set: PathLike, *, data: PathLike | None = None, skip_bad_rows: bool = False) -> Report:
     """
     :api fit_drum_coastdown
     """
-    return Report(_rollrig.fit_drum_coastdown(to_path(set, "set"), to_path(data or "", "data"), to_skip(skip_bad_rows)))
+    logs = to_path("" if data is None else data, "data")
+    return Report(_rollrig.fit_drum_coastdown(to_path(set, "set"), logs, to_skip(skip_bad_rows)))

@@ -10,10 +10,10 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, take_given, to_path
+from .settings import PathLike, take_given, to_flag, to_load_index, to_optional_path, to_path
 
 
-def new_tire(size: str, *, name: str | None = None, load_index: str | None = None, tire_class: str | None = None,
+def new_tire(size: str, *, name: str | None = None, load_index: str | int | None = None, tire_class: str | None = None,
              is_reinforced: bool = False, rrc_N_per_kN: float | None = None, tir: Name = None,
              rrc_sd_N_per_kN: float | None = None, pressure_kPa: float | None = None,
              speed_symbol: str | None = None, warm_up: Name = None, progress: Progress = None,
@@ -25,11 +25,15 @@ def new_tire(size: str, *, name: str | None = None, load_index: str | None = Non
     * warm_up: log of a warm-up, or a folder of such logs, to which the tire is fitted; further arguments tell of the
       log, as those of import_folder().
     """
-    given = {"size": size, "name": name, "load_index": load_index and str(load_index), "tire_class": tire_class,
-             "is_reinforced": is_reinforced, "rrc_N_per_kN": rrc_N_per_kN, "tir": tir,
+    if "folder" in log:
+        raise TypeError("unexpected keyword argument 'folder'")
+    given = {"size": size, "name": name, "load_index": to_load_index(load_index, "load_index"),
+             "tire_class": tire_class, "is_reinforced": to_flag(is_reinforced, "is_reinforced"),
+             "rrc_N_per_kN": rrc_N_per_kN, "tir": tir,
              "rrc_sd_N_per_kN": rrc_sd_N_per_kN, "pressure_kPa": pressure_kPa, "speed_symbol": speed_symbol}
     with progress_display(progress) as show:
-        return Report(_rollrig.make_new_tire(show, take_given(given), take_given({"folder": warm_up, **log})))
+        of_log = {"folder": to_optional_path(warm_up, "warm_up"), **log}
+        return Report(_rollrig.make_new_tire(show, take_given(given), take_given(of_log)))
 
 
 def new_rig(*, name: str | None = None, kind: str | None = None, diameter_m: float | None = None,

@@ -10,6 +10,8 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any, Union
 
+from .settings import wrong_type
+
 Show = Callable[[float, str], object]
 Progress = Union[bool, Show, None]
 """progress=: True shows a bar, False none; None (default) shows a bar in Jupyter alone. A function is called with the
@@ -81,7 +83,7 @@ def progress_display(progress: Progress) -> Iterator[Show | None]:
     if callable(progress):
         yield progress
     elif not (progress is None or isinstance(progress, bool)):
-        raise TypeError(f"argument 'progress': True, False, None or a function is expected, not {progress!r}")
+        raise wrong_type("progress", "True, False, None or a function is expected", progress)
     elif progress is False or (progress is None and not is_in_notebook()):
         yield None
     else:

@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
 
 class Kept:
-    """What the extension's object of a result has, as a pickle holds it: properties, and what methods give."""
+    """Replaces the extension's object of a result in a pickle.
+
+    It holds the values of the object's properties, and what the object's methods return or raise.
+    """
 
     def __init__(self, made: Any, properties: tuple[str, ...], methods: tuple[str, ...]) -> None:
         self._content = {name: getattr(made, name) for name in properties}

@@ -8,7 +8,8 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, make_uncertainty_options, take_given, to_count, to_list, to_path, to_paths, to_skip
+from .settings import PathLike, make_uncertainty_options, take_given, to_flag, to_list, to_load_index, to_path, \
+    to_paths, to_plain, to_skip
 
 
 def compare(compared: Sequence[PathLike], *, scenario: str | None = None, skip_bad_rows: bool = False,
@@ -19,18 +20,21 @@ def compare(compared: Sequence[PathLike], *, scenario: str | None = None, skip_b
     :members CompareInput
     """
     with progress_display(progress) as show:
-        return Report(_rollrig.compare(show, to_paths(compared, "compared"), scenario or "", to_skip(skip_bad_rows)))
+        return Report(_rollrig.compare(show, to_paths(compared, "compared"), scenario, to_skip(skip_bad_rows)))
 
 
 def label(*, rrc_N_per_kN: float | None = None, rrc_sd_N_per_kN: float | None = None, tire_class: str | None = None,
-          load_index: str | None = None, speed_symbol: str | None = None, is_severe_snow: bool = False,
+          load_index: str | int | None = None, speed_symbol: str | None = None, is_severe_snow: bool = False,
           tire: Name = None) -> Report:
     """
     :api make_label
 
     :members LabelInput
     """
-    return Report(_rollrig.make_label(take_given(locals())))
+    given = {"rrc_N_per_kN": rrc_N_per_kN, "rrc_sd_N_per_kN": rrc_sd_N_per_kN, "tire_class": tire_class,
+             "load_index": to_load_index(load_index, "load_index"), "speed_symbol": speed_symbol,
+             "is_severe_snow": to_flag(is_severe_snow, "is_severe_snow"), "tire": tire}
+    return Report(_rollrig.make_label(take_given(given)))
 
 
 def convert(*, force_N: float | None = None, rrc_N_per_kN: float | None = None,
@@ -48,34 +52,46 @@ def convert(*, force_N: float | None = None, rrc_N_per_kN: float | None = None,
     given = {"force_N": force_N, "rrc_N_per_kN": rrc_N_per_kN, "tire": tire, "pressure_exponent": pressure_exponent,
              "load_exponent": load_exponent, "diameter_exponent": diameter_exponent,
              "ambient_coefficient_per_K": ambient_coefficient_per_K}
-    return Report(_rollrig.convert_loss(take_given(given), dict(measured), dict(wanted)))
+    return Report(_rollrig.convert_loss(take_given(given), to_plain(measured), to_plain(wanted)))
 
 
 def align(file: PathLike, *, reference_values: Name = None, machine: str | None = None,
           reference_machine: str | None = None, reference: tuple[float, float] | None = None,
           preliminary: bool = False, first_excluded: bool = False, on: str | None = None,
           machine_changed: str | None = None, uncertainty: bool = False, monte_carlo: int = 0,
-          progress: Progress = None) -> Report:
+          seed: int = 1, threads: int = 0, progress: Progress = None) -> Report:
     """
     :api align
 
     :members AlignmentInput
+    * uncertainty: whether the uncertainty budget of the results is wanted.
+    * monte_carlo: number of trials that check it; 0: none.
+    :members UncertaintyOptions
     """
     given = {"file": file, "reference_values": reference_values, "machine": machine,
-             "reference_machine": reference_machine, "reference": reference, "preliminary": preliminary,
-             "first_excluded": first_excluded, "on": on, "machine_changed": machine_changed}
+             "reference_machine": reference_machine, "reference": reference,
+             "preliminary": to_flag(preliminary, "preliminary"),
+             "first_excluded": to_flag(first_excluded, "first_excluded"), "on": on, "machine_changed": machine_changed}
     with progress_display(progress) as show:
-        return Report(_rollrig.align(show, make_uncertainty_options(uncertainty, monte_carlo), take_given(given)))
+        return Report(_rollrig.align(show, make_uncertainty_options(uncertainty, monte_carlo, seed, threads),
+                                     take_given(given)))
 
 
 def apply_alignment(alignment: PathLike, rrc_N_per_kN: float, *, measurements: int = 1,
-                    on: str | None = None) -> Report:
+                    on: str | None = None, uncertainty: bool = False, monte_carlo: int = 0, seed: int = 1,
+                    threads: int = 0, progress: Progress = None) -> Report:
     """
     :api apply_alignment
 
     :members AlignedValueInput
+    * uncertainty: whether the uncertainty budget of the results is wanted.
+    * monte_carlo: number of trials that check it; 0: none.
+    :members UncertaintyOptions
     """
-    return Report(_rollrig.apply_alignment(take_given(locals())))
+    given = {"alignment": alignment, "rrc_N_per_kN": rrc_N_per_kN, "measurements": measurements, "on": on}
+    with progress_display(progress) as show:
+        return Report(_rollrig.apply_alignment(show, make_uncertainty_options(uncertainty, monte_carlo, seed, threads),
+                                               take_given(given)))
 
 
 def export_mat(source: PathLike, *, skip_bad_rows: bool = False) -> bytes:
@@ -120,4 +136,4 @@ def regress(folder: PathLike | None = None, *, threads: int = 0, progress: Progr
     :api regress
     """
     with progress_display(progress) as show:
-        return Report(_rollrig.regress(show, to_path(folder or "", "folder"), to_count(threads, "threads")))
+        return Report(_rollrig.regress(show, to_path("" if folder is None else folder, "folder"), threads))

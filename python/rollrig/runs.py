@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
-from .settings import PathLike, make_run_input, make_uncertainty_options, to_flag, to_path
+from .settings import PathLike, make_run_input, to_flag, to_path
 from .values import Value
 
 if TYPE_CHECKING:
@@ -170,15 +170,17 @@ class Run:
         :api Run::carry_out
         * uncertainty: whether the uncertainty budget of the results is wanted.
         * monte_carlo: number of trials that check it; 0: none.
+        * threads: for these trials; 0: as many as the machine has.
         """
-        options = make_uncertainty_options(uncertainty, monte_carlo, threads)
+        options = {"uncertainty": uncertainty, "monte_carlo": monte_carlo, "threads": threads}
         with progress_display(progress) as show:
             return Result(self._run.carry_out(show, options))
 
 
 def run(scenario: PathLike, *, tire: Name = None, rig: Name = None, vehicle: Name = None,
         fidelity: str | None = None, baseline: str | None = None, sensors: Name = None, seed: int | None = None,
-        progress: Progress = None, uncertainty: bool = False, monte_carlo: int = 0, **settings: Any) -> Result:
+        progress: Progress = None, uncertainty: bool = False, monte_carlo: int = 0, threads: int = 0,
+        **settings: Any) -> Result:
     """Runs a scenario: rollrig.run("iso_28580", tire="a50", pressure_kPa=210).
 
     :members RunInput
@@ -189,7 +191,8 @@ def run(scenario: PathLike, *, tire: Name = None, rig: Name = None, vehicle: Nam
       done (0 to 1, NaN if unknown) and the stage as text.
     * uncertainty: whether the uncertainty budget of the results is wanted.
     * monte_carlo: number of trials that check it; 0: none.
+    * threads: for these trials; 0: as many as the machine has.
     """
     prepared = Run(scenario, tire=tire, rig=rig, vehicle=vehicle, fidelity=fidelity, baseline=baseline,
                    sensors=sensors, seed=seed, **settings)
-    return prepared.carry_out(progress=progress, uncertainty=uncertainty, monte_carlo=monte_carlo)
+    return prepared.carry_out(progress=progress, uncertainty=uncertainty, monte_carlo=monte_carlo, threads=threads)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from . import _rollrig
 from .report import Report
 from .runs import Name
-from .settings import PathLike, take_given, to_path, to_skip
+from .settings import PathLike, take_given, to_flag, to_path, to_skip
 
 if TYPE_CHECKING:
     from .arrays import Channel
@@ -74,8 +74,11 @@ class MeasurementSet:
         return f"MeasurementSet({self.name!r}, kind {self.kind}, tire {self.tire}, {len(self.runs)} runs)"
 
 
-def as_set(given: MeasurementSet | PathLike, skip_bad_rows: bool = False) -> MeasurementSet:
-    return given if isinstance(given, MeasurementSet) else MeasurementSet(given, skip_bad_rows=skip_bad_rows)
+def as_set(given: MeasurementSet | PathLike, argument: str, skip_bad_rows: bool) -> MeasurementSet:
+    to_skip(skip_bad_rows)
+    if isinstance(given, MeasurementSet):
+        return given
+    return MeasurementSet(to_path(given, argument), skip_bad_rows=skip_bad_rows)
 
 
 class FileCheck(NamedTuple):
@@ -106,7 +109,7 @@ def import_logs(mapping: PathLike, *, data: PathLike | None = None, skip_bad_row
     """
     :api import_logs
     """
-    return Report(_rollrig.import_logs(to_path(mapping, "mapping"), to_path(data or "", "data"),
+    return Report(_rollrig.import_logs(to_path(mapping, "mapping"), to_path("" if data is None else data, "data"),
                                        to_skip(skip_bad_rows)))
 
 
@@ -126,5 +129,7 @@ def import_folder(folder: PathLike, out: PathLike, *, tire: Name = None, rig: Na
     given = {"folder": folder, "tire": tire, "rig": rig, "vehicle": vehicle, "sensors": sensors, "name": name,
              "columns": columns, "units": units, "values": values, "date_order": date_order,
              "cold_pressure_kPa": cold_pressure_kPa, "rests_min": rests_min}
-    Report(_rollrig.import_guessed(take_given(given), to_path(out, "out"), to_skip(skip_bad_rows))).write(out, force)
-    return MeasurementSet(out, skip_bad_rows=skip_bad_rows)
+    into = to_path(out, "out")
+    overwrite = to_flag(force, "force")
+    Report(_rollrig.import_guessed(take_given(given), into, to_skip(skip_bad_rows))).write(into, overwrite)
+    return MeasurementSet(into, skip_bad_rows=skip_bad_rows)

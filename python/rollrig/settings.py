@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import decimal
+import numbers
 import operator
 import os
 from collections.abc import Iterable, Iterator, Mapping
@@ -12,12 +14,31 @@ from .errors import InputError
 PathLike = Union[str, bytes, "os.PathLike[Any]"]
 
 
+def show(value: Any) -> str:
+    """A value as messages show it: its repr, or the start of a long one."""
+    try:
+        shown = repr(value)
+    except Exception:  # such as a whole number with more digits than Python writes
+        return f"a value of type {type(value).__name__}"
+    return shown if len(shown) <= 200 else shown[:200] + "..."
+
+
+def wrong_type(argument: str, expected: str, value: Any) -> TypeError:
+    """The same words as in python/bindings/text.cpp."""
+    return TypeError(f"argument '{argument}': {expected}, not {show(value)}")
+
+
 def to_path(value: Any, argument: str) -> bytes:
     """A path, or text, as the library takes it. A name of a file that is not UTF-8 keeps its bytes."""
     try:
-        return to_bytes(os.fspath(value), argument)
+        given = os.fspath(value)
     except TypeError:
-        raise TypeError(f"argument '{argument}': a path is expected, not {value!r}") from None
+        raise wrong_type(argument, "a path is expected", value) from None
+    encoded = to_bytes(given, argument)
+    if b"\0" in encoded:
+        what = f"argument '{argument}' has a NUL character"
+        raise InputError(what, key=argument, value=show(value), allowed="text without one")
+    return encoded
 
 
 def to_bytes(text: str | bytes, argument: str) -> bytes:
@@ -26,13 +47,17 @@ def to_bytes(text: str | bytes, argument: str) -> bytes:
     try:
         return text.encode("utf-8", "surrogateescape")
     except UnicodeEncodeError:
-        what = f"argument '{argument}' holds half of a character"
-        raise InputError(what, key=argument, value=ascii(text), allowed="text in Unicode") from None
+        what = f"argument '{argument}' has a lone surrogate"
+        raise InputError(what, key=argument, value=show(text), allowed="text in Unicode") from None
+
+
+def to_optional_path(value: Any, argument: str) -> bytes | None:
+    return None if value is None else to_path(value, argument)
 
 
 def to_paths(values: Any, argument: str) -> list[bytes]:
     if isinstance(values, (str, bytes, os.PathLike)) or not isinstance(values, Iterable):
-        raise TypeError(f"argument '{argument}': a list of paths is expected, not {values!r}")
+        raise wrong_type(argument, "a list of paths is expected", values)
     return [to_path(value, argument) for value in values]
 
 
@@ -41,56 +66,85 @@ def to_list(values: Any, argument: str) -> list[Any]:
     if isinstance(values, (str, bytes)):
         return [values]
     if not isinstance(values, Iterable):
-        raise TypeError(f"argument '{argument}': a list is expected, not {values!r}")
+        raise wrong_type(argument, "a list is expected", values)
     return [*values]
 
 
+def is_bool(value: Any) -> bool:
+    """Whether it is a bool of Python or NumPy."""
+    of = type(value)
+    return isinstance(value, bool) or (of.__module__ == "numpy" and of.__name__ in ("bool_", "bool"))  # NumPy 1 and 2
+
+
 def to_flag(value: Any, argument: str) -> bool:
-    if isinstance(value, (bool, int)) or type(value).__name__ == "bool_":  # the last is NumPy's
-        if value in (False, True):
-            return bool(value)
-    raise TypeError(f"argument '{argument}': True or False is expected, not {value!r}")
+    if is_bool(value):
+        return bool(value)
+    raise wrong_type(argument, "True or False is expected", value)
 
 
 def to_skip(skip_bad_rows: Any) -> bool:
     return to_flag(skip_bad_rows, "skip_bad_rows")
 
 
-def to_count(value: Any, argument: str) -> int:
+def to_count(value: Any, argument: str) -> str:
+    """A whole number of any size."""
     try:
-        return operator.index(value)
+        if not is_bool(value):
+            return write_whole_number(operator.index(value), argument)
     except TypeError:
-        raise TypeError(f"argument '{argument}': a whole number is expected, not {value!r}") from None
+        pass
+    raise wrong_type(argument, "a whole number is expected", value)
 
 
-def to_text(value: Any) -> str:
+def write_whole_number(value: int, argument: str) -> str:
+    try:
+        return str(value)
+    except ValueError:  # it has more digits than Python writes
+        what = f"argument '{argument}' is out of range"
+        raise InputError(what, key=argument, value=show(value), allowed="a number with fewer digits") from None
+
+
+def to_load_index(value: Any, argument: str) -> str | bytes | None:
+    """91 is "91"."""
+    return value if value is None or isinstance(value, (str, bytes)) else to_count(value, argument)
+
+
+def to_text(value: Any, argument: str) -> str:
     """A value as it stands after "key=". Numbers keep every bit."""
     if hasattr(value, "tolist"):  # of NumPy
         value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, Mapping):
-        return "{}"  # an empty one: an effect without numbers, or a wrong name
+    if isinstance(value, Mapping) and not value:
+        return "{}"  # an effect without numbers, or a wrong name
     if isinstance(value, float):
         return float.__repr__(value)
+    if isinstance(value, int):
+        return write_whole_number(value, argument)
     if isinstance(value, (str, bytes, os.PathLike)):
         return os.fsdecode(value)
-    if isinstance(value, Iterable):
-        return "[" + ",".join(_to_element(each) for each in value) + "]"
-    return str(value)
+    if isinstance(value, Iterable) and not isinstance(value, Mapping):
+        return "[" + ",".join(_to_element(each, argument) for each in value) + "]"
+    if isinstance(value, (numbers.Real, decimal.Decimal)):
+        return str(value)
+    raise wrong_type(argument, "a number, a text or a list is expected", value)
 
 
-def _to_element(value: Any) -> str:
-    return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"' if isinstance(value, str) else to_text(value)
+def _to_element(value: Any, argument: str) -> str:
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return to_text(value, argument)
 
 
 def list_settings(settings: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
     """Each as "key=value". A mapping stands for keys with a dot: effects={"bearing_warmup": {"fall_per_K": 0.02}}."""
     for key, value in settings.items():
+        if not isinstance(key, str):
+            raise wrong_type(prefix[:-1], "a dict with texts as keys is expected", settings)
         if isinstance(value, Mapping) and value:
             yield from list_settings(value, f"{prefix}{key}.")
         elif value is not None:
-            yield f"{prefix}{key}={to_text(value)}"
+            yield f"{prefix}{key}={to_text(value, prefix + key)}"
 
 
 def to_names(names: str | Iterable[str], argument: str) -> list[str]:
@@ -98,20 +152,21 @@ def to_names(names: str | Iterable[str], argument: str) -> list[str]:
     return [name.strip() for name in names.split(",")] if isinstance(names, str) else to_list(names, argument)
 
 
-def take_given(arguments: Mapping[str, Any]) -> dict[str, Any]:
-    """The arguments that are not None; for the others the library uses its defaults. Mappings become dicts."""
-    return {key: _to_plain(value) for key, value in arguments.items() if value is not None}
-
-
-def _to_plain(value: Any) -> Any:
+def to_plain(value: Any) -> Any:
+    """A mapping as a dict."""
     return dict(value) if isinstance(value, Mapping) else value
 
 
-def make_uncertainty_options(uncertainty: bool, monte_carlo: int, threads: int = 0) -> dict[str, Any]:
-    return {"uncertainty": uncertainty, "monte_carlo": monte_carlo, "threads": threads}
+def take_given(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments that are not None; for the others the library uses its defaults. Mappings become dicts."""
+    return {key: to_plain(value) for key, value in arguments.items() if value is not None}
+
+
+def make_uncertainty_options(uncertainty: bool, monte_carlo: int, seed: int, threads: int) -> dict[str, Any]:
+    return {"uncertainty": uncertainty, "monte_carlo": monte_carlo, "seed": seed, "threads": threads}
 
 
 def make_run_input(scenario: PathLike, names: Mapping[str, Any],
                    settings: Mapping[str, Any]) -> dict[str, Any]:
-    given = {key: to_text(value) for key, value in names.items() if value is not None}
+    given = {key: to_count(value, key) if key == "seed" else value for key, value in names.items() if value is not None}
     return {**given, "scenario": scenario, "settings": list(list_settings(settings))}

@@ -10,7 +10,7 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, make_run_input, to_list, to_text
+from .settings import PathLike, make_run_input, to_list, to_text, wrong_type
 
 Values = Union[str, Sequence[Any], Any]
 """Of a setting: a list, a range or an array, or a text such as "210:310:20"."""
@@ -18,9 +18,12 @@ Values = Union[str, Sequence[Any], Any]
 
 def make_axes(vary: Mapping[str, Values]) -> dict[str, str | list[str]]:
     if not isinstance(vary, Mapping):
-        raise TypeError(f"argument 'vary': a dict is expected, not {vary!r}")
-    return {key: values if isinstance(values, str) else [to_text(value) for value in to_list(values, f"vary: {key}")]
-            for key, values in vary.items()}
+        raise wrong_type("vary", "a dict is expected", vary)
+    return {key: make_axis(values, f"vary: {key}") for key, values in vary.items()}
+
+
+def make_axis(values: Values, argument: str) -> str | list[str]:
+    return values if isinstance(values, str) else [to_text(value, argument) for value in to_list(values, argument)]
 
 
 def to_number(text: str) -> float | str:

@@ -52,6 +52,52 @@ class ManyRuns(InFolder):
         self.assertGreater(frame["rrc_N_per_kN"].std(), 0)
         with self.assertRaises(rollrig.InputError):
             rollrig.Campaign(self.folder / "nowhere")
+        for words, report in ((["status"], campaign.state), (["merge"], campaign.merge())):
+            made = json.loads(report.json)
+            told = json.loads(run_program("campaign", *words, "told", "--json", "-", folder=self.folder))
+            self.assertEqual({**made, "folder": None}, {**told, "folder": None})
+
+    def test_a_campaign_of_a_sensitivity(self):
+        words = ["--design", "morris", "--points", 4]
+        run_program("campaign", "new", "told", "iso_28580", *QUICK_OPTIONS, "--draw", "pressure_kPa=uniform:200:260",
+                    "--draw", "load_N=normal:5000:300", *words, folder=self.folder)
+        run_program("campaign", "run", "told", folder=self.folder)
+        campaign = rollrig.new_campaign(self.folder / "made", "iso_28580", design="morris", points=4, **QUICK,
+                                        drawn=["pressure_kPa=uniform:200:260", "load_N=normal:5000:300"])
+        campaign.run(threads=1)
+        self.assertEqual(campaign.sensitivity("rrc_N_per_kN").json,
+                         run_program("campaign", "sensitivity", "told", "--result", "rrc_N_per_kN", "--json", "-",
+                                     folder=self.folder))
+
+    def test_a_campaign_of_diagnoses(self):
+        shutil.copytree(EXAMPLES / "hidden_effect", self.folder / "sets" / "one")
+        run_program("campaign", "new-diagnoses", "told", "sets", "--only", "bearing_warmup", folder=self.folder)
+        run_program("campaign", "run", "told", folder=self.folder)
+        campaign = rollrig.new_diagnosis_campaign(self.folder / "made", rollrig.find_sets(self.folder / "sets"),
+                                                  only="bearing_warmup")
+        campaign.run()
+        self.assertEqual(campaign.summary().json,
+                         run_program("campaign", "summary", "told", "--json", "-", folder=self.folder))
+        run_program("campaign", "export", "told", "--csv", "told.csv", folder=self.folder)
+        self.assertEqual(campaign.csv(), (self.folder / "told.csv").read_text())
+
+    def test_a_regression(self):
+        (self.folder / "runs").mkdir()
+        run = 'format = "rollrig-run/1"\nscenario = "iso_28580"\ntire = "a50"\nfidelity = "quasi_static"\n'
+        (self.folder / "runs" / "usual.toml").write_text(run)
+        run_program("regress", "runs", "--update", "--quiet", folder=self.folder)
+        (self.folder / "runs" / "changed.toml").write_text(run + "[settings]\npressure_kPa = 240.0\n")
+        shutil.copy(self.folder / "runs" / "usual.golden.csv", self.folder / "runs" / "changed.golden.csv")
+        told = run_program("regress", "runs", "--json", "-", "--threads", 0, folder=self.folder, status=1)
+        with contextlib.chdir(self.folder):
+            self.assertEqual(rollrig.regress("runs", threads=2).json, told)
+
+    def test_a_plan(self):
+        few = "bearing_warmup,torque_zero_drift"
+        words = ["plan", "--rig", "drum", "--hours", 6, "--only", few, "--json", "-", "--out", self.folder / "told"]
+        plan = rollrig.plan_campaign(rig="drum", hours=6, only=few)
+        self.assertEqual(plan.json, run_program(*words))
+        self.assert_same_files(plan.files(), self.read_files("told"))
 
 
 class Measurements(InFolder):
@@ -77,7 +123,13 @@ class Measurements(InFolder):
         self.assertEqual(len(made.runs), 3)
         report = rollrig.import_logs(EXAMPLES / "logs" / "import.toml")
         run_program("import", EXAMPLES / "logs" / "import.toml", "--out", "joined", folder=self.folder)
-        self.assertEqual(set(report.files()), set(self.read_files("joined")))
+        self.assert_same_files(report.files(), self.read_files("joined"))
+        for path in (self.folder / "joined", EXAMPLES / "hidden_effect" / "rig.toml"):
+            check = rollrig.validate(path)
+            told = run_program("validate", path)
+            self.assertTrue(check.is_good)
+            for text in (check.what, *check.warnings):
+                self.assertIn(" ".join(text.split()), " ".join(told.split()))
 
     def test_a_run_becomes_a_set(self):
         result = rollrig.run("speed_sweep", tire="a50", fidelity="quasi_static", sensors="source",
@@ -117,6 +169,31 @@ class Fits(InFolder):
         self.check(rollrig.fit_j2452(EXAMPLES / "j2452_points.csv", uncertainty=True), "fit", "j2452",
                    EXAMPLES / "j2452_points.csv", "--uncertainty")
         self.check(rollrig.fit_j1269(EXAMPLES / "j1269_points.csv"), "fit", "j1269", EXAMPLES / "j1269_points.csv")
+
+    def test_their_uncertainty_with_a_seed_of_its_own(self):
+        asked = {"uncertainty": True, "monte_carlo": 500, "seed": 5}
+        words = ["--uncertainty", "--monte-carlo", 500, "--seed", 5]
+        file = EXAMPLES / "coastdowns.csv"
+        fit = self.check(rollrig.fit_road_load(file, mass_kg=1500, **asked), "fit", "road-load", file, "--mass", 1500,
+                         *words)
+        self.assertNotEqual(fit.json, rollrig.fit_road_load(file, mass_kg=1500, **{**asked, "seed": 6}).json)
+        self.check(rollrig.evaluate_road_load(file, "wltp", mass_kg=1500, **asked), "fit", "road-load", file, "--mass",
+                   1500, "--method", "wltp", *words)
+        for law, call in (("j2452", rollrig.fit_j2452), ("j1269", rollrig.fit_j1269)):
+            points = EXAMPLES / f"{law}_points.csv"
+            self.check(call(points, **asked), "fit", law, points, *words)
+
+    def test_bounds_that_no_number_can_meet_are_refused(self):
+        none = (math.inf, math.inf, math.inf)
+        for lower, upper, what in (((math.nan, 0, 0), none, "a bound of A is not a number"),
+                                   ((0, 0, 0), (math.inf, math.nan, 1), "a bound of B is not a number"),
+                                   ((0, 0, math.inf), none, "no number is within the bounds of C"),
+                                   ((-math.inf, 0, 0), (-math.inf, 1, 1), "no number is within the bounds of A"),
+                                   ((2, 0, 0), (1, 1, 1), "the bounds of A have their ends swapped")):
+            with self.assertRaises(rollrig.InputError) as caught:
+                rollrig.fit_road_load(EXAMPLES / "coastdowns.csv", mass_kg=1500, bounds=(lower, upper))
+            self.assertEqual((caught.exception.what, caught.exception.key), (what, "--bounds"))
+        rollrig.fit_road_load(EXAMPLES / "coastdowns.csv", mass_kg=1500, bounds=((-math.inf, 0, 0), none))
 
     def test_a_default_road_load(self):
         self.check(rollrig.default_road_load(mass_kg=1500, width_m=1.8, height_m=1.5), "fit", "default-road-load",
@@ -208,11 +285,22 @@ class Limits(InFolder):
         self.assertEqual((caught.exception.key, caught.exception.value), ("--date-order", "mydd"))
 
     def test_of_threads(self):
+        """0 is as many as the machine has; a number below it is refused, as on the command line."""
+        points = EXAMPLES / "j1269_points.csv"
+        told = run_program("fit", "j1269", points, "--monte-carlo", 500, "--threads", 0, "--json", "-")
+        self.assertEqual(rollrig.fit_j1269(points, monte_carlo=500, threads=0).json, told)
+        self.assertEqual(rollrig.fit_j1269(points, monte_carlo=500, threads=3).json, told)
+        for refused in (-1, 1025):
+            self.assertIn("0 to 1024", run_failing_program("fit", "j1269", points, f"--threads={refused}"))
         for call in (lambda: rollrig.fit_j1269(EXAMPLES / "j1269_points.csv", threads=-1),
                      lambda: rollrig.sweep("iso_28580", vary={"pressure_kPa": [210]}, threads=2000, **QUICK),
                      lambda: rollrig.diagnose(EXAMPLES / "hidden_effect", threads=-1),
                      lambda: rollrig.fit_tire(EXAMPLES / "hidden_effect", threads=-1),
-                     lambda: rollrig.plan_campaign(threads=-1)):
+                     lambda: rollrig.plan_campaign(threads=-1),
+                     lambda: rollrig.run("iso_28580", threads=-1, **QUICK),
+                     lambda: rollrig.run("iso_28580", threads=1025, **QUICK),
+                     lambda: rollrig.align(EXAMPLES / "alignment.csv", threads=-1),
+                     lambda: rollrig.regress(self.folder, threads=-1)):
             with self.assertRaises(rollrig.InputError) as caught:
                 call()
             self.assertEqual(caught.exception.key, "--threads")
@@ -272,12 +360,18 @@ class FurtherResults(InFolder):
         words = ["align", EXAMPLES / "alignment.csv", "--reference-machine", "drum_A", "--reference", 1.003, -0.05]
         self.check(rollrig.align(EXAMPLES / "alignment.csv", reference_machine="drum_A", reference=(1.003, -0.05)),
                    *words)
+        self.check(rollrig.align(EXAMPLES / "alignment.csv", reference_machine="drum_A", reference=(1.003, -0.05),
+                                 uncertainty=True, monte_carlo=500, seed=4), *words, "--uncertainty", "--monte-carlo",
+                   500, "--seed", 4)
 
     def test_an_aligned_value(self):
         rollrig.align(EXAMPLES / "alignment.csv", reference_machine="drum_A").write(self.folder / "out")
         alignment = self.folder / "out" / "alignment.json"
         self.check(rollrig.apply_alignment(alignment, 8.1, measurements=3, on="2026-06-01"), "align", "--apply",
                    alignment, "--rrc", 8.1, "--measurements", 3, "--on", "2026-06-01")
+        self.check(rollrig.apply_alignment(alignment, 8.1, on="2026-06-01", uncertainty=True, monte_carlo=500, seed=4),
+                   "align", "--apply", alignment, "--rrc", 8.1, "--on", "2026-06-01", "--uncertainty", "--monte-carlo",
+                   500, "--seed", 4)
 
     def test_a_comparison(self):
         rollrig.run("iso_28580", **QUICK).write(self.folder / "a")
@@ -302,6 +396,9 @@ class FurtherResults(InFolder):
                     folder=self.folder)
         tire = rollrig.new_tire("205/55R16", load_index=91, rrc_N_per_kN=8.2)
         self.assertEqual(list(tire.files().values()), [(self.folder / "tire.toml").read_text()])
+        run_program("new", "vehicle", "--mass", 1900, "--drag-area", 0.6, "--out", "car.toml", folder=self.folder)
+        self.assertEqual(list(rollrig.new_vehicle(mass_kg=1900, drag_area_m2=0.6).files().values()),
+                         [(self.folder / "car.toml").read_text()])
         run_program("new", "rig", "--diameter", 1.7, "--out", "rig.toml", folder=self.folder)
         self.assertEqual(list(rollrig.new_rig(diameter_m=1.7).files().values()),
                          [(self.folder / "rig.toml").read_text()])
@@ -314,6 +411,27 @@ class FurtherResults(InFolder):
             rollrig.new_tire("205/55R", rrc_N_per_kN=8.2)
         with self.assertRaisesRegex(TypeError, "rrc"):
             rollrig.new_tire("205/55R16", rrc=8.2)
+
+    def test_commands_that_have_no_function_are_those_of_the_documentation(self):
+        """All others are compared in this folder; a new command belongs to one of the two."""
+        compared = {"run", "sweep", "regress", "validate", "list", "describe", "diagnose", "plan", "import", "convert",
+                    "align", "compare", "label", "export", "campaign new", "campaign new-diagnoses", "campaign run",
+                    "campaign status", "campaign merge", "campaign export", "campaign sensitivity", "campaign summary",
+                    "fit road-load", "fit tire", "fit drum-coastdown", "fit j2452", "fit j1269",
+                    "fit default-road-load", "new tire", "new rig", "new vehicle", "new set", "export fmu"}
+        without = {"serve", "completion", "man", "help", "campaign slurm"}
+        listed = set()
+        for command in self.list_commands():
+            inner = self.list_commands(command) if command not in ("help", "man") else []
+            listed.update(f"{command} {name}" for name in inner)
+            if not inner or command == "export":
+                listed.add(command)
+        self.assertEqual(listed, compared | without)
+
+    def list_commands(self, *of):
+        """Names of subcommands, as the help has them."""
+        _, found, after = run_program(*of, "--help").partition("\nSubcommands:\n")
+        return re.findall(r"^  ([a-z][a-z0-9-]*)$", after.split("\n\n")[0], re.MULTILINE) if found else []
 
     def test_names(self):
         self.assertEqual(str(rollrig.describe("warm_up")), run_program("describe", "warm_up"))

@@ -157,7 +157,10 @@ class Arguments(InFolder):
                 "rrc_N_per_kN": lambda: rollrig.label(rrc_N_per_kN=[8.4]),
                 "tire": lambda: rollrig.label(tire=3),
                 "columns": lambda: rollrig.new_set("logs", columns=["a"]),
-                "values": lambda: rollrig.new_set("logs", values={"ambient_degC": "warm"}),
+                "values: ambient_degC": lambda: rollrig.new_set("logs", values={"ambient_degC": "warm"}),
+                "set": lambda: rollrig.fit_tire(3),
+                "a": lambda: rollrig.diagnose_pair(3, EXAMPLES / "hidden_effect"),
+                "warm_up": lambda: rollrig.new_tire("205/55R16", warm_up=3),
         }.items():
             with self.subTest(name), self.assertRaisesRegex(TypeError, f"argument '{name}'"):
                 call()
@@ -177,8 +180,8 @@ class Arguments(InFolder):
         report.write(folder)
         self.assertTrue(os.path.exists(os.path.join(folder, b"road_load.json")))
 
-    def test_are_no_half_characters_and_no_zeros(self):
-        for bad in ("a\ud800", "a\0b"):
+    def test_have_no_lone_surrogates_and_no_nul_characters(self):
+        for bad in ("a\ud800", "a\0b", b"a\0b", pathlib.Path("a\0b")):
             for call in (lambda: rollrig.MeasurementSet(bad), lambda: rollrig.run("iso_28580", tire=bad),
                          lambda: rollrig.run(bad), lambda: rollrig.run("iso_28580", tire="a50", method=bad)):
                 with self.assertRaises(rollrig.InputError):
@@ -197,6 +200,32 @@ class Settings(InFolder):
         with self.assertRaises(rollrig.InputError) as caught:
             rollrig.run("transient_skim", tire="a50", effects={"slip_los": {}})
         self.assertEqual(caught.exception.nearest, "slip_loss")
+
+    def test_an_effect_that_needs_a_table_that_the_tire_lacks_is_refused_before_the_run(self):
+        tables = {"geometry": {"outer_diameter_m": 0.67, "section_width_m": 0.235, "rim_diameter_m": 0.48,
+                               "mass_kg": 10.5, "wheel_mass_kg": 14.0, "spin_inertia_kg_m2": 1.35},
+                  "stiffness": {"vertical_N_per_m": 220000.0, "vertical_damping_N_s_per_m": 300.0,
+                                "slip_stiffness_N": 75000.0, "relaxation_length_m": 0.3},
+                  "thermal": {"heat_capacity_J_per_K": 17000.0, "gas_heat_capacity_J_per_K": 73.0, "H_gas_W_per_K": 4.0,
+                              "conductance_at_rest_W_per_K": 12.0, "conductance_per_speed_W_s_per_m_K": 1.0},
+                  "constant": {"rrc_N_per_kN": 8.0}}
+        lines = ['format = "rollrig-tire/2"', 'name = "trial"', 'model = "constant_rrc"']
+        for table, numbers in tables.items():
+            lines += [f"[{table}]", *(f"{key} = {value}" for key, value in numbers.items())]
+        (self.folder / "trial.toml").write_text("\n".join(lines) + "\n")
+        program = self.folder / "program.csv"
+        program.write_text("time_s,speed_km_h,load_N,longitudinal_force_N,ambient_degC\n"
+                           "0,30,4800,50,20\n60,90,4800,200,20\n")
+        drum = {"pressure_kPa": 210, "load_N": 4000, "warm_up_min": 5}
+        for scenario, given in (("warm_up", drum), ("drive_cycle", {"pressure_kPa": 210}),
+                                ("follow_roller", {"pressure_kPa": 210, "program": program})):
+            known = {"tire": self.folder / "trial.toml", "fidelity": "quasi_static", **given}
+            rollrig.Run(scenario, **known)
+            rollrig.Run(scenario, effects={"bearing_warmup": {}}, **known)
+            with self.assertRaisesRegex(rollrig.InputError, r"\[rolling_resistance\]") as caught:
+                rollrig.Run(scenario, effects={"load_exponent": {}}, **known)
+            self.assertEqual((caught.exception.value, os.path.basename(caught.exception.file)),
+                             ("load_exponent", "trial.toml"))
 
     def test_no_values_and_no_sets_are_refused(self):
         with self.assertRaises(rollrig.InputError):
@@ -241,27 +270,29 @@ class Calls(unittest.TestCase):
         self.assertGreater(rollrig.run("iso_28580", tire="a50", **QUICK)["rrc_N_per_kN"], 0)
 
     def test_go_on_when_the_progress_of_another_thread_raises(self):
-        started, stopped, results = threading.Event(), threading.Event(), []
+        self.check_others_go_on(LookupError)
+
+    def test_go_on_when_the_progress_of_the_main_thread_raises_keyboard_interrupt(self):
+        self.check_others_go_on(KeyboardInterrupt)
+
+    def check_others_go_on(self, raised):
+        begun, raised_s, results = threading.Event(), [], []
 
         def simulate():
-            def tell(done, stage):
-                started.set()
-                stopped.wait(60)  # the run is not over before the other one has been stopped
-
-            results.append(rollrig.run("iso_28580", tire="a50", measurement_cycles=20, progress=tell))
+            results.append(rollrig.run("iso_28580", tire="a50", measurement_cycles=100, measurement_min=600,
+                                       progress=lambda done, stage: begun.set()))
 
         def refuse(done, stage):
-            if started.is_set():
-                raise LookupError("enough")
+            raised_s.append(time.monotonic())
+            raise raised("enough")
 
         thread = threading.Thread(target=simulate)
         thread.start()
-        asked_s = time.monotonic()
-        with self.assertRaisesRegex(LookupError, "enough"):
-            rollrig.sweep("iso_28580", tire="a50", vary={"pressure_kPa": range(210, 242)}, measurement_cycles=100,
-                          measurement_min=600, threads=2, progress=refuse)
-        self.assertLess(time.monotonic() - asked_s, 20)  # threads of the call have stopped too: it takes minutes
-        stopped.set()
+        begun.wait()  # it takes several times as long as the sweep until that raises
+        with self.assertRaisesRegex(raised, "enough"):
+            rollrig.sweep("iso_28580", tire="a50", vary={"pressure_kPa": np.linspace(200, 300, 2000)}, threads=2,
+                          progress=refuse)
+        self.assertLess(time.monotonic() - raised_s[0], 20)  # threads of the call have stopped too: it takes minutes
         thread.join()
         self.assertEqual(len(results), 1)
 
@@ -275,6 +306,30 @@ class Calls(unittest.TestCase):
                    "begun.wait()\n")
         done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_of_other_threads_stop_at_ctrl_c_too(self):
+        program = ("import threading, rollrig\n"
+                   "def simulate(progress):\n"
+                   "  try:\n"
+                   "    rollrig.run('iso_28580', tire='a50', measurement_cycles=100, measurement_min=600,\n"
+                   "                progress=progress)\n"
+                   "  except KeyboardInterrupt:\n"
+                   "    print('stopped', flush=True)\n"
+                   "begun = threading.Event()\n"
+                   "thread = threading.Thread(target=simulate, args=[lambda done, stage: begun.set()])\n"
+                   "thread.start()\n"
+                   "begun.wait()\n"
+                   "print('begun', flush=True)\n"
+                   "simulate(False)\n"
+                   "thread.join()\n")
+        started = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+        started.stdout.readline()
+        time.sleep(0.5)
+        asked_s = time.monotonic()
+        started.send_signal(signal.SIGINT)
+        out, _ = started.communicate(timeout=60)
+        self.assertEqual(out, "stopped\nstopped\n")
+        self.assertLess(time.monotonic() - asked_s, 20)
 
     def test_stop_at_ctrl_c(self):
         program = ("import rollrig\ntry:\n  print('begun', flush=True)\n"
@@ -305,6 +360,30 @@ class Calls(unittest.TestCase):
             time.sleep(0.001)
         thread.join()
         self.assertGreater(counted, 50)
+
+
+class Import(unittest.TestCase):
+    def run_python(self, program):
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(done.stderr, "")
+        return done.stdout
+
+    def test_in_a_subinterpreter_is_refused_and_leaves_the_main_one_alone(self):
+        inside = ("try:\n  import rollrig\n"
+                  "except ImportError as error:\n  print(error, flush=True)\n")
+        begin = ("import _xxsubinterpreters as interpreters\n"
+                 f"def try_inside():\n  interpreters.run_string(interpreters.create(), {inside!r})\n")
+        run = f"import rollrig\nprint(rollrig.run('iso_28580', tire='a50', **{QUICK!r})['method'], flush=True)\n"
+        refused = "rollrig works in the main interpreter alone, not in a subinterpreter\n"
+        self.assertEqual(self.run_python(begin + "try_inside()\ntry_inside()\n" + run + "try_inside()\n" + run),
+                         2 * refused + "torque\n" + refused + "torque\n")
+
+    def test_again_gives_the_same_extension(self):
+        again = ("import sys, rollrig\nfirst = rollrig._rollrig\n"
+                 "for name in [name for name in sys.modules if name.startswith('rollrig')]:\n  del sys.modules[name]\n"
+                 "import rollrig\nprint(rollrig._rollrig is first, rollrig._rollrig.__name__)\n"
+                 f"print(rollrig.run('iso_28580', tire='a50', **{QUICK!r})['method'])\n")
+        self.assertEqual(self.run_python(again), "True rollrig._rollrig\ntorque\n")
 
 
 if __name__ == "__main__":
