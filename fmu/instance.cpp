@@ -56,6 +56,14 @@ void require_times(double start_s, double stop_s) {
                     fmt::format("{:g}", stop_s), fmt::format(">= {:g} s", start_s), ""});
 }
 
+/// How far the time that an importer says may be from that of the wheel: importers add up their steps in other ways.
+/// Less than a step, so that none is done twice or left out, unless the step is lost in the rounding of the time.
+double find_slack_s(double time_s, double step_s) {
+  const double distance_s = std::abs(time_s);
+  const double rounding_s = 4.0 * (std::nextafter(distance_s, HUGE_VAL) - distance_s);
+  return std::max(rounding_s, std::min(1e-9 * std::max(1.0, distance_s), 0.5 * step_s));
+}
+
 SavedState& to_saved_state(void* state) {
   require_given(state);
   return *static_cast<SavedState*>(state);
@@ -172,7 +180,7 @@ void Instance::set_slopes(const unsigned* references, std::size_t count, const d
 }
 
 void Instance::step(double time_s, double step_s) {
-  const double slack_s = 1e-9 * std::max(1.0, std::abs(wheel.time_s()));
+  const double slack_s = find_slack_s(wheel.time_s(), step_s);
   if (!(std::abs(time_s - wheel.time_s()) <= slack_s)) {
     throw InputError({"the step does not begin where the last one ended", "", 0, "time", fmt::format("{:g}", time_s),
                       fmt::format("{:g} s", wheel.time_s()), ""});

@@ -156,6 +156,16 @@ TEST_CASE("times at which rounding would lose a step are refused, and all others
     tire.step(tire.get("time_s"), 5.0);
     CHECK(tire.get("liner_temperature_K") > tire.get("ambient_temperature_K"));
   }
+  const double of_2023_s = 1.7e9;  // since 1970: no step may be done twice or left out there either
+  Fmi2 dated(fmu, fmi2CoSimulation);
+  dated.initialize(of_2023_s);
+  dated.step(of_2023_s, 0.5);
+  CHECK(FMI2(fmu, fmi2DoStep)(dated.component, of_2023_s, 0.5, fmi2True) == fmi2Error);
+  CHECK(FMI2(fmu, fmi2DoStep)(dated.component, of_2023_s + 1.0, 0.5, fmi2True) == fmi2Error);
+  for (int i = 1; i < 1000; ++i) dated.step(of_2023_s + 0.5 * i, 0.5);
+  Fmi2 counted(fmu, fmi2CoSimulation);
+  counted.initialize();
+  for (int i = 0; i < 100000; ++i) counted.step(1e-3 * i, 1e-3);  // times that are not sums of steps
   Fmi2 late(fmu, fmi2CoSimulation);
   late.initialize(9.99999999e9);
   CHECK(FMI2(fmu, fmi2DoStep)(late.component, 9.99999999e9, 20.0, fmi2True) == fmi2Error);
