@@ -27,9 +27,10 @@ pybind11::bytes to_bytes(pybind11::handle given, const std::string& argument) {
 }  // namespace
 
 std::string to_string(pybind11::handle given, const std::string& argument) {
-  if (PyUnicode_Check(given.ptr()) != 0) return to_string(to_bytes(given, argument), argument);
-  if (PyBytes_Check(given.ptr()) != 0) {
-    const auto text = static_cast<std::string>(pybind11::reinterpret_borrow<pybind11::bytes>(given));
+  const bool is_str = PyUnicode_Check(given.ptr()) != 0;
+  if (is_str || PyBytes_Check(given.ptr()) != 0) {
+    const auto bytes = is_str ? to_bytes(given, argument) : pybind11::reinterpret_borrow<pybind11::bytes>(given);
+    const auto text = static_cast<std::string>(bytes);
     if (text.find('\0') == std::string::npos) return text;
     throw bad_text(argument, "NUL character", "text without one", given);
   }

@@ -125,8 +125,10 @@ def to_text(value: Any, argument: str) -> str:
         return os.fsdecode(value)
     if isinstance(value, Iterable) and not isinstance(value, Mapping):
         return "[" + ",".join(_to_element(each, argument) for each in value) + "]"
-    if isinstance(value, (numbers.Real, decimal.Decimal)):
+    if isinstance(value, decimal.Decimal):
         return str(value)
+    if isinstance(value, numbers.Real):  # such as a fraction
+        return float.__repr__(float(value))
     raise wrong_type(argument, "a number, a text or a list is expected", value)
 
 

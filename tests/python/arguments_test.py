@@ -1,6 +1,7 @@
 """Every public function refuses an argument of a wrong type by a TypeError of its own, which names the argument."""
 
 import decimal
+import fractions
 import inspect
 import os
 import types
@@ -184,7 +185,7 @@ class Arguments(InFolder):
         with self.assertRaises(rollrig.InputError):
             rollrig.run("iso_28580", pressure_kPa=LONG, **QUICK)
         usual = rollrig.run("iso_28580", pressure_kPa=210.5, **QUICK)
-        for value in (decimal.Decimal("210.5"), np.float64(210.5), np.array(210.5), "210.5", b"210.5"):
+        for value in (decimal.Decimal("210.5"), fractions.Fraction(421, 2), np.float64(210.5), np.array(210.5), "210.5", b"210.5"):
             self.assertEqual(rollrig.run("iso_28580", pressure_kPa=value, **QUICK).json, usual.json)
 
     def test_that_numpy_made_are_taken(self):
@@ -208,6 +209,10 @@ class Arguments(InFolder):
         self.assertEqual((caught.exception.key, caught.exception.allowed), ("points", "0 or more"))
         with self.assertRaisesRegex(rollrig.InputError, "argument 'path' has a NUL character"):
             rollrig.fit_j1269("points.csv\0.txt")
+        with self.assertRaises(rollrig.InputError) as caught:
+            rollrig.assets("tires\0")
+        self.assertEqual((caught.exception.what, caught.exception.value),
+                         ("argument 'folder' has a NUL character", r"'tires\x00'"))
         with self.assertRaisesRegex(rollrig.InputError, "argument 'path' has a lone surrogate"):
             rollrig.fit_j1269("points\ud800.csv")
         self.assertFalse((self.folder / "campaign").exists())
