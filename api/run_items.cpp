@@ -69,11 +69,11 @@ void RunItems::check_briefly(bool has_same_assets) const {
   const std::vector<std::string> values = find_usual_values();
   check_at(values);
   if (has_same_assets) return;
-  check_words();
   carry_out_quickly(read(values, 1));  // some files are read only then
+  carry_out_words();
 }
 
-void RunItems::check_words() const {
+void RunItems::carry_out_words() const {
   if (!is_list_) {
     const std::vector<std::string> medians = find_usual_values();
     for (std::size_t f = 0; f < factors_.size(); ++f) {
@@ -81,7 +81,7 @@ void RunItems::check_words() const {
         if (parse_number(value).has_value()) continue;
         std::vector<std::string> values = medians;
         values[f] = value;
-        check_at(values);
+        carry_out_quickly(read(values, 1));
       }
     }
     return;
@@ -93,7 +93,7 @@ void RunItems::check_words() const {
     for (const std::string& value : values) {
       if (!parse_number(value).has_value() && words.insert(value).second) has_new_word = true;
     }
-    if (has_new_word) check_at(values);
+    if (has_new_word) carry_out_quickly(read(values, 1));
   }
 }
 

@@ -46,8 +46,8 @@ class RunItems : public CampaignItems {
   /// Of a list its first item, else the median of each factor: of draws, an item itself may be one that fails.
   std::vector<std::string> find_usual_values() const;
   void check_at(const std::vector<std::string>& values) const;
-  /// Every value that is a word, such as the name of a tire: each may stand for a file.
-  void check_words() const;
+  /// A run for every value that is a word, such as the name of a tire or of a method: each may have a file read.
+  void carry_out_words() const;
   /// Of a list, whose values belong together.
   void check_list() const;
   /// Of a design in which every value may meet every other.

@@ -41,20 +41,27 @@ struct UncountedArray {
   const char* means_none;  // value outside of an array
 };
 
-constexpr std::array<UncountedArray, 3> kUncountedArrays{{
-    {"PBS_ARRAY_INDEX", ""},  // PBS Professional
-    {"PBS_ARRAYID", ""},      // Torque
-    {"LSB_JOBINDEX", "0"},    // LSF
+constexpr std::array<UncountedArray, 6> kUncountedArrays{{
+    {"PBS_ARRAY_INDEX", ""},            // PBS Professional
+    {"PBS_ARRAYID", ""},                // Torque
+    {"LSB_JOBINDEX", "0"},              // LSF
+    {"OAR_ARRAY_INDEX", ""},            // OAR
+    {"AWS_BATCH_JOB_ARRAY_INDEX", ""},  // AWS Batch
+    {"JOB_COMPLETION_INDEX", ""},       // Kubernetes
 }};
 
 /// Throws InputError where this process is one of several of which it cannot know the number.
 void refuse_uncounted(const Environment& environment, bool is_process_counted) {
   const auto refuse = [](const char* name, const char* value) {
-    throw InputError({fmt::format("the variable {} says which of several processes this one is, and none says how many "
-                                  "there are",
-                                  name),
-                      "environment", 0, name, value,
-                      fmt::format("--shard $I/N, I from 1 by ${} and N the number of processes", name), ""});
+    throw InputError(
+        {fmt::format("the variable {} says which of several processes this one is, and none says how many "
+                     "there are",
+                     name),
+         "environment", 0, name, value,
+         fmt::format("--shard I/N: N the number of all processes, I from 1 to N, which ${} gives (add 1 where it "
+                     "counts from 0)",
+                     name),
+         ""});
   };
   for (const UncountedArray& array : kUncountedArrays) {
     const char* task = environment(array.task);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 #include "campaigns/design.h"
@@ -43,6 +44,8 @@ auto with_file(const std::string& path, const char* busy, const Use& use) {
       allowed = "a file that rollrig campaign has written; without it, its items are carried out again";
     } else if (code == SQLITE_FULL) {
       allowed = "room on the disk; what was written before is safe";
+    } else if (code == SQLITE_IOERR) {
+      allowed = "a disk that works, with room for your files (a quota may be full); what was written before is safe";
     }
     throw InputError({what, path, 0, "", "", allowed, ""});
   }
@@ -62,7 +65,8 @@ SQLite::Database open_alone(const std::string& path, int flags, int patience_ms 
 }
 
 /// Writes the content of the log of a file into the file, and removes the log. The content is on the disk before the
-/// file is marked as one without a log. The mark need not wait for the disk: with or without it, the file is read alike.
+/// file is marked as one without a log. The mark need not wait for the disk: is_marked_as_logged() finds a file
+/// without.
 void checkpoint_log(SQLite::Database& database) {
   database.exec("PRAGMA wal_checkpoint(TRUNCATE)");
   database.exec("PRAGMA synchronous = OFF");
@@ -72,6 +76,23 @@ void checkpoint_log(SQLite::Database& database) {
 /// Whether a file has a log: a process writes it, or was killed as it did.
 bool has_log(const std::string& path) { return is_there(path + "-wal") || is_there(path + "-journal"); }
 
+/// Whether the header of a file says that it has a log, as where a process was killed between the removal of the log
+/// and that of the mark.
+/// Source  the file format of SQLite, 1.3.3: byte 18 is 2 then
+bool is_marked_as_logged(const std::string& path) {
+  constexpr std::streamoff kWriteVersion = 18;
+  std::ifstream in(path, std::ios::binary);
+  in.seekg(kWriteVersion);
+  return in.get() == 2;
+}
+
+/// Opens a file that no process writes and that may be in a folder in which nothing can be written.
+SQLite::Database open_unchanged(const std::string& path) {
+  std::string escaped;
+  for (const char c : path) escaped += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02X}", c) : std::string(1, c);
+  return SQLite::Database("file:" + escaped + "?immutable=1", SQLite::OPEN_READONLY | SQLite::OPEN_URI, kPatience_ms);
+}
+
 /// Opens a file to read it, beside others that read it. What a killed process has left in the log is
 /// written into the file first.
 SQLite::Database open_to_read(const std::string& path) {
@@ -79,9 +100,16 @@ SQLite::Database open_to_read(const std::string& path) {
     throw InputError({"this file of results is no longer there: another process has merged or removed it", path, 0, "",
                       "", "the same command once more", ""});
   }
-  if (has_log(path)) {
-    SQLite::Database database = open_alone(path, SQLite::OPEN_READWRITE);
-    checkpoint_log(database);
+  const bool has_its_log = has_log(path);
+  if (has_its_log || is_marked_as_logged(path)) {
+    try {
+      SQLite::Database database = open_alone(path, SQLite::OPEN_READWRITE);
+      checkpoint_log(database);
+    } catch (const SQLite::Exception& error) {
+      if (has_its_log || error.getErrorCode() == SQLITE_BUSY) throw;
+      note_as_read(path);
+      return open_unchanged(path);
+    }
   }
   note_as_read(path);
   return SQLite::Database(path, SQLite::OPEN_READONLY, kPatience_ms);
@@ -196,6 +224,7 @@ void Store::close() {
 void Store::write(const Record& record) {
   with_file(database_->path, kOnePartEach, [&] {
     SQLite::Statement& insert = *database_->insert;
+    insert.tryReset();  // where the last one failed, as on a full disk
     insert.bind(1, static_cast<std::int64_t>(record.item));
     insert.bindNoCopy(2, record.identity);
     insert.bind(3, static_cast<std::int64_t>(record.seed));

@@ -147,7 +147,9 @@ int campaign_run_command(const CampaignRunOptions& options) {
     return kInterrupted;
   }
   output.show(state);
-  return state.failed == 0 ? kDone : kRunFailed;
+  // mpirun and srun stop all other processes where one of them ends with another status than 0.
+  const bool is_one_of_several = options.shard.empty() && find_launched_part().value_or(CampaignPart{}).count > 1;
+  return state.failed == 0 || is_one_of_several ? kDone : kRunFailed;
 }
 
 int campaign_status_command(const CampaignFolderOptions& options) {

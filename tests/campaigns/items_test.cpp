@@ -158,6 +158,24 @@ TEST_CASE("a file of a process that was killed as it made it is empty", "[fast]"
   CHECK(read_all(folder) == read_undisturbed());
 }
 
+TEST_CASE("a file of a process that was killed as it closed it is read, and its mark of a log goes", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  carry_out_items(FakeItems(), folder, {1, 1}, 1);
+  const std::string path = folder.file_of({1, 1});
+  {
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(18);
+    file.write("\x02\x02", 2);  // read and write version of SQLite: with a log
+  }
+  CHECK(read_all(folder) == read_undisturbed());
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(18);
+  CHECK(file.get() == 1);
+  CHECK(!std::filesystem::exists(path + "-wal"));
+  CHECK(!std::filesystem::exists(path + "-shm"));
+}
+
 TEST_CASE("a file that has a further item is not removed", "[slow]") {
   const TemporaryFolder at;
   const CampaignFolder folder{at.path(), "test", 11};

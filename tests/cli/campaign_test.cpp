@@ -326,6 +326,25 @@ TEST_CASE("a tire that another assets folder lacks stops a campaign, and is no f
   CHECK_THAT(run_to_end("campaign status c", at), Catch::Contains("6 of 6 items done") && !Catch::Contains("failed"));
 }
 
+TEST_CASE("words that have further files read are carried out before a campaign begins", "[fast]") {
+  const TemporaryFolder at;
+  // The torque method alone reads the usual sensors, and is no median here.
+  run_to_end(std::string("campaign new c ") + kRun + " --vary method=torque,force", at);
+  run_to_end("campaign run c", at);
+  CHECK_THAT(run_to_end("campaign status c", at), Catch::Contains("2 of 2 items done") && !Catch::Contains("failed"));
+}
+
+TEST_CASE("a failed item does not stop the other processes of a launcher", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun + " --draw pressure_kPa=uniform:-100:400 --points 6 --seed 2", at);
+  for (const char* rank : {"0", "1"}) {  // mpirun stops all where one ends with another status than 0
+    run_to_end("campaign run c --threads 1", at,
+               std::string("OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=") + rank);
+  }
+  CHECK_THAT(run_to_end("campaign status c", at), Catch::Contains("6 of 6 items done") && Catch::Contains("failed"));
+  CHECK(run_program("campaign run c", at.path()).status == 3);
+}
+
 TEST_CASE("results of a campaign are not overwritten by what a command writes", "[fast]") {
   const TemporaryFolder at;
   run_to_end(std::string("campaign new c ") + kRun + " --vary load_N=5000,5400", at);
