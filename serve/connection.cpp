@@ -15,6 +15,28 @@ namespace rollrig::serve {
 Connection::Connection(socket_t socket, const ConnectionLimits& limits, const std::atomic<bool>& is_ending)
     : socket_(socket), limits_(limits), is_ending_(is_ending), deadline_(start_ + limits.head) {}
 
+Connection::~Connection() {
+  if (socket_ >= 0) ::close(socket_);
+}
+
+HeadState Connection::receive_head() {
+  while (!is_head_done_ && end_ < buffer_.size()) {
+    const ssize_t got = ::recv(socket_, buffer_.data() + end_, buffer_.size() - end_, MSG_DONTWAIT);
+    if (got < 0 && errno == EINTR) continue;
+    const bool is_nothing_there = got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
+    if (is_nothing_there && Clock::now() < deadline_) return HeadState::kSilent;
+    if (got <= 0) return HeadState::kGone;
+    count_head(end_, static_cast<std::size_t>(got));
+    end_ += static_cast<std::size_t>(got);
+  }
+  return HeadState::kReady;
+}
+
+void Connection::begin_answer() {
+  start_ = Clock::now();
+  deadline_ = start_ + (is_head_done_ ? limits_.request : limits_.head);
+}
+
 bool Connection::wait_for(short event) const {
   constexpr std::chrono::milliseconds kBetweenLooks{100};
   while (!is_ending_) {
@@ -31,8 +53,8 @@ bool Connection::wait_for(short event) const {
 bool Connection::is_readable() const { return begin_ < end_ || wait_for(POLLIN); }
 bool Connection::is_writable() const { return wait_for(POLLOUT); }
 
-bool Connection::count_head(std::size_t bytes) {
-  for (std::size_t i = 0; i < bytes && !is_head_done_; ++i) {
+bool Connection::count_head(std::size_t first, std::size_t bytes) {
+  for (std::size_t i = first; i < first + bytes && !is_head_done_; ++i) {
     ++head_bytes_;
     const char c = buffer_[i];
     if (c == '\n') {
@@ -55,7 +77,7 @@ bool Connection::fill() {
   if (got <= 0) return false;
   begin_ = 0;
   end_ = static_cast<std::size_t>(got);
-  return is_head_done_ || count_head(end_);
+  return is_head_done_ || count_head(0, end_);
 }
 
 ssize_t Connection::read(char* data, std::size_t size) {
@@ -82,6 +104,7 @@ void Connection::close() {
   while (wait_for(POLLIN) && ::recv(socket_, buffer_.data(), buffer_.size(), 0) > 0) {
   }
   ::close(socket_);
+  socket_ = -1;
 }
 
 void Connection::get_remote_ip_and_port(std::string& ip, int& port) const {

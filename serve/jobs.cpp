@@ -25,6 +25,11 @@ Jobs::~Jobs() {
   thread_.join();
 }
 
+const char* Jobs::name_state(State state) {
+  constexpr const char* kNames[] = {"waiting", "running", "done", "failed", "canceled"};
+  return kNames[static_cast<int>(state)];
+}
+
 std::size_t Jobs::count(State state) const {
   return static_cast<std::size_t>(
       std::count_if(jobs_.begin(), jobs_.end(), [state](const auto& item) { return item.second.state == state; }));
@@ -37,11 +42,12 @@ void Jobs::forget_old() {
   }
 }
 
-int Jobs::add(Work work) {
+int Jobs::add(const std::string& name, Work work) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (count(State::kWaiting) >= kMostWaiting) throw Refusal(503, "too many diagnoses wait; cancel one or try later");
   forget_old();
   const int id = next_++;
+  jobs_[id].name = name;
   jobs_[id].work = std::move(work);
   changed_.notify_all();
   return id;
@@ -56,13 +62,23 @@ Jobs::Job& Jobs::find(int id) {
 Json Jobs::describe(int id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const Job& job = const_cast<Jobs*>(this)->find(id);
-  constexpr const char* kNames[] = {"waiting", "running", "done", "failed", "canceled"};
-  Json json{{"state", kNames[static_cast<int>(job.state)]},
+  Json json{{"name", job.name},
+            {"state", name_state(job.state)},
             {"done", std::isfinite(job.done) ? Json(job.done) : Json()},
             {"stage", job.stage}};
   if (!job.result.is_null()) json["result"] = job.result;
   if (!job.error.is_null()) json["error"] = job.error;
   return json;
+}
+
+Json Jobs::list() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Json jobs = Json::array();
+  for (const auto& [id, job] : jobs_) {
+    jobs.push_back({{"job", id}, {"name", job.name}, {"state", name_state(job.state)}});
+    if (job.result.contains("kept")) jobs.back()["kept"] = job.result["kept"];
+  }
+  return {{"jobs", jobs}};
 }
 
 void Jobs::cancel(int id) {

@@ -24,16 +24,19 @@ class Jobs {
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
-  /// Number of the new job. Throws Refusal where too many wait.
-  int add(Work work);
-  /// {state: "waiting" | "running" | "done" | "failed" | "canceled", done, stage, result, error}. Throws Refusal where
-  /// there is no such job.
+  /// Number of the new job; `name` is what a person calls it. Throws Refusal where too many wait.
+  int add(const std::string& name, Work work);
+  /// {name, state: "waiting" | "running" | "done" | "failed" | "canceled", done, stage, result, error}. Throws Refusal
+  /// where there is no such job.
   Json describe(int id) const;
+  /// {jobs: [{job, name, state, kept}]}: those that are not forgotten, in their order; `kept` where the result has it.
+  Json list() const;
   void cancel(int id);
 
  private:
   enum class State { kWaiting, kRunning, kDone, kFailed, kCanceled };
   struct Job {
+    std::string name;
     Work work;
     State state = State::kWaiting;
     bool is_canceled = false;
@@ -43,6 +46,7 @@ class Jobs {
     Json error;
   };
 
+  static const char* name_state(State state);
   void work_off();
   void carry_out(std::unique_lock<std::mutex>& lock, Job& job);
   Job& find(int id);

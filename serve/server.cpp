@@ -209,6 +209,7 @@ void Server::Data::route_sets() {
   route(R"(/api/sets/(\d{1,6})/columns)", &SetDesk::guess);
   route(R"(/api/sets/(\d{1,6})/validate)", &SetDesk::make_set);
   route(R"(/api/sets/(\d{1,6})/diagnose)", &SetDesk::diagnose);
+  get("/api/jobs", [this](const httplib::Request&) { return jobs.list(); });
   get(R"(/api/jobs/(\d{1,6}))", [this](const httplib::Request& request) { return jobs.describe(id_of(request)); });
   post(R"(/api/jobs/(\d{1,6})/cancel)", [this](const httplib::Request& request) {
     jobs.cancel(id_of(request));
@@ -242,6 +243,7 @@ Server::~Server() {
 
 int Server::port() const { return data_->port; }
 const std::string& Server::token() const { return data_->token; }
+const std::string& Server::dropped_folder() const { return data_->desk.folder(); }
 std::string Server::url() const { return fmt::format("http://{}:{}/?token={}", kAddress, data_->port, data_->token); }
 
 }  // namespace rollrig::serve

@@ -32,6 +32,8 @@ class Server {
   const std::string& token() const;
   /// The address of the page, with the token.
   std::string url() const;
+  /// The private folder of the dropped files. It goes with the server.
+  const std::string& dropped_folder() const;
 
  private:
   struct Data;

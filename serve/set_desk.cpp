@@ -77,7 +77,7 @@ Json SetDesk::open(const Json& request) {
   const int id = next_++;
   sets_[id].name = name.empty() ? "dropped" : name;
   fs::create_directories(logs_of(id));
-  return {{"set", id}};
+  return {{"set", id}, {"name", sets_[id].name}};
 }
 
 std::unique_ptr<IncomingFile> SetDesk::take_file(int id, const std::string& name, std::uint64_t bytes) {
@@ -178,7 +178,7 @@ Json SetDesk::diagnose(int id, const Json& request) {
     json["page"] = report::make_payload(page);
     return json;
   };
-  return {{"job", jobs_.add(work)}};
+  return {{"job", jobs_.add(dropped.name, work)}};
 }
 
 }  // namespace rollrig::serve

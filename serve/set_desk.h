@@ -24,7 +24,7 @@ class SetDesk {
  public:
   SetDesk(const Shelf& shelf, KeptPages& kept, Jobs& jobs, int threads);
 
-  /// Begins a set; beyond a few, the oldest goes. {set: id}
+  /// Begins a set; beyond a few, the oldest goes. {set: id, name}
   Json open(const Json& request);
   /// Where a file comes in. `bytes` is its length as the request says it. Throws Refusal.
   std::unique_ptr<IncomingFile> take_file(int id, const std::string& name, std::uint64_t bytes);
@@ -38,6 +38,8 @@ class SetDesk {
   /// {job}: the diagnosis of the validated set; its result is {page, kept, verdict}.
   Json diagnose(int id, const Json& request);
 
+  /// The private folder of all sets.
+  const std::string& folder() const { return folder_.path(); }
   /// The part of paths in messages that a person does not know.
   std::string private_part(int id) const { return logs_of(id) + "/"; }
 

@@ -78,7 +78,12 @@ IncomingFile::IncomingFile(const std::string& folder, const std::string& name) :
     is_finished_ = true;  // the other one stays
     throw refuse_name(name, "there is such a file already");
   }
-  fs::create_directories(fs::path(path_).parent_path());
+  const fs::path above = fs::path(path_).parent_path();
+  std::error_code failed;
+  fs::create_directories(above, failed);
+  if (failed || !fs::is_directory(above, failed)) {
+    throw refuse_name(name, "a part of its path is a file, or the disk is full");
+  }
   out_.open(path_, std::ios::binary);
   if (!out_) throw Refusal(507, "the dropped file cannot be written");
 }

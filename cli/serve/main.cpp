@@ -1,7 +1,14 @@
 /// rollrig_serve: `rollrig serve`, a program of its own, so that rollrig does not link what a server needs.
+#include <csignal>
+
+#undef si_value  // of <signal.h>, and a name of sim/core/units.h
+
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -9,11 +16,52 @@
 #include "cli/command.h"
 #include "cli/help_formatter.h"
 #include "cli/serve_options.h"
+#include "include/rollrig/progress.h"
 #include "serve/server.h"
 #include "sim/core/interrupt.h"
 
 namespace rollrig::cli {
 namespace {
+
+volatile std::sig_atomic_t interrupts = 0;
+
+/// The first asks the server to end, the second is for end_at_second_interrupt(), the third ends the process at once.
+extern "C" void count_interrupt(int signal_number) {
+  request_interrupt();
+  interrupts = interrupts + 1;
+  if (interrupts > 1) std::signal(signal_number, SIG_DFL);
+}
+
+/// A server may take a while to end: its diagnosis stops at its next step. At a second Ctrl-C the process ends, and the
+/// dropped files go before.
+class SecondInterrupt {
+ public:
+  explicit SecondInterrupt(std::string folder) : folder_(std::move(folder)), thread_([this] { watch(); }) {}
+  ~SecondInterrupt() {
+    has_ended_ = true;
+    thread_.join();
+  }
+  SecondInterrupt(const SecondInterrupt&) = delete;
+  SecondInterrupt& operator=(const SecondInterrupt&) = delete;
+
+ private:
+  void watch() const {
+    constexpr std::chrono::milliseconds kBetweenLooks{20};
+    constexpr int kStatus = 128 + SIGINT;  // as a shell reports it
+    while (!has_ended_) {
+      if (interrupts > 1) {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+        std::_Exit(kStatus);
+      }
+      std::this_thread::sleep_for(kBetweenLooks);
+    }
+  }
+
+  std::string folder_;
+  std::atomic<bool> has_ended_{false};
+  std::thread thread_;  // the last member: it uses the others
+};
 
 /// Waits until Ctrl-C or SIGTERM.
 void wait_for_interrupt() {
@@ -33,15 +81,18 @@ int serve_until_interrupt(const ServeOptions& options) {
   asked.keep_folder = options.keep_folder;
   asked.port = options.port;
   asked.threads = options.threads;
+  for (const int signal_number : {SIGINT, SIGTERM}) std::signal(signal_number, count_interrupt);
   {
-    const serve::Server server(asked);
+    auto server = std::make_unique<const serve::Server>(asked);
+    const SecondInterrupt second(server->dropped_folder());
     std::cout << fmt::format(
                      "rollrig serves this page on this computer only. Open it in a browser:\n\n  {}\n\n"
                      "The address holds a secret: anyone who has it can use the page. Kept pages go to {}/.\n"
                      "Ctrl-C ends it.\n",
-                     server.url(), options.keep_folder)
+                     server->url(), options.keep_folder)
               << std::flush;
     wait_for_interrupt();
+    server.reset();
   }
   std::cout << "ended\n";
   return kDone;

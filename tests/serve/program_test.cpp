@@ -63,6 +63,21 @@ TEST_CASE("Ctrl-C and SIGTERM end rollrig serve, and nothing is left", "[slow]")
   }
 }
 
+TEST_CASE("a second Ctrl-C ends rollrig serve, and nothing is left", "[slow]") {
+  const TemporaryFolder folder;
+  const pid_t server = start(folder);
+  REQUIRE(is_soon([&] { return read_file(folder.file("out")).find("?token=") != std::string::npos; }));
+  kill(server, SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));  // before the first is looked at
+  kill(server, SIGINT);
+  int status = -1;
+  const bool has_ended = is_soon([&] { return waitpid(server, &status, WNOHANG) == server; });
+  if (!has_ended) kill(server, SIGKILL), waitpid(server, &status, 0);
+  CHECK(has_ended);
+  CHECK(WIFEXITED(status));  // with 130, or 0 where the server was quicker
+  CHECK(folder.entry_count() == 1);
+}
+
 TEST_CASE("rollrig serve refuses wrong files and ports before it serves", "[fast]") {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& options, const std::string& says) {

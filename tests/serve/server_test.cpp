@@ -70,17 +70,22 @@ struct Bench {
 
 const Json kRun{{"scenario", "iso_28580"}, {"tire", "a50"}};
 
-/// Sends bytes as they are and returns what comes back until the server closes.
-std::string send_raw(int port, const std::string& bytes) {
+/// The socket of a connection to the server; -1 where there is none.
+int open_connection(int port) {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    ::close(socket);
-    return "";
-  }
+  if (::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return socket;
+  ::close(socket);
+  return -1;
+}
+
+/// Sends bytes as they are and returns what comes back until the server closes.
+std::string send_raw(int port, const std::string& bytes) {
+  const int socket = open_connection(port);
+  if (socket < 0) return "";
   for (std::size_t sent = 0; sent < bytes.size();) {
     const ssize_t part = ::send(socket, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
     if (part <= 0) break;
@@ -285,6 +290,21 @@ TEST_CASE("a hundred clients are answered, one after the other", "[slow]") {
   CHECK(bench.is_alive());
 }
 
+TEST_CASE("connections without a request do not keep others out", "[fast]") {
+  const Bench bench(std::chrono::minutes(1));
+  std::vector<int> sockets;
+  for (int i = 0; i < 300; ++i) {  // more than are held at once
+    const int socket = open_connection(bench.server.port());
+    REQUIRE(socket >= 0);
+    if (i % 2 == 0) CHECK(::send(socket, "GET", 3, MSG_NOSIGNAL) == 3);
+    sockets.push_back(socket);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  CHECK(bench.is_alive());
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(10));  // a minute, would it wait for them
+  for (const int socket : sockets) ::close(socket);
+}
+
 TEST_CASE("clients that say nothing do not keep others out", "[slow]") {
   const Bench bench(std::chrono::milliseconds(1000));
   std::vector<std::thread> silent;
@@ -356,6 +376,14 @@ TEST_CASE("a diagnosis is canceled, and the next one runs", "[slow]") {
   const int long_one = bench.post(at + "diagnose", Json::object())["job"].get<int>();
   const int waiting = bench.post(at + "diagnose", Json::object())["job"].get<int>();
   CHECK(wait_for(long_one, {"running"}) == "running");
+  // A page that is loaded again finds them.
+  const Json listed = bench.get("/api/jobs")["jobs"];
+  REQUIRE(listed.size() == 2);
+  CHECK(listed[0]["job"] == long_one);
+  CHECK(listed[0]["state"] == "running");
+  CHECK(listed[1]["job"] == waiting);
+  CHECK(listed[1]["state"] == "waiting");
+  CHECK_FALSE(listed[0]["name"].get<std::string>().empty());
   bench.post(fmt::format("/api/jobs/{}/cancel", waiting), Json::object());
   bench.post(fmt::format("/api/jobs/{}/cancel", long_one), Json::object());
   CHECK(wait_for(waiting, {"canceled"}) == "canceled");

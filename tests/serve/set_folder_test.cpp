@@ -55,6 +55,8 @@ TEST_CASE("a file that does not come in whole goes again, and none is replaced",
   REQUIRE(whole.append("1,2\n", 4));
   whole.finish();
   CHECK_THROWS_AS(IncomingFile(folder.path(), "runs/whole.csv"), serve::Refusal);
+  CHECK_THROWS_AS(IncomingFile(folder.path(), "runs/whole.csv/inside.csv"), serve::Refusal);
+  CHECK_THROWS_AS(IncomingFile(folder.path(), "runs"), serve::Refusal);
   CHECK(tests::read_file(folder.file("runs/whole.csv")) == "1,2\n");
 }
 
