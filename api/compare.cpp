@@ -135,7 +135,7 @@ comparison::Compared compare_tire_files(const CompareInput& input, const std::ve
       tests.back().runs.push_back(std::move(spec));
     }
   }
-  return comparison::compare_tires(tires, tests, names, [&progress](double done) {
+  return comparison::compare_tires(tires, tests, names, input.threads, [&progress](double done) {
     if (progress) progress(done, "");
   });
 }

@@ -32,6 +32,7 @@ void add_compare_command(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--scenario", options->input.scenario,
                       "Of tires: a virtual test beside that of ISO 28580 [none]");
+  add_threads(*command, options->input.threads);
   add_skip_bad_rows(*command, options->input.bad_rows);
   options->output.add_to(*command, "File for the comparison, - for standard output",
                          "Folder for comparison.json, differences.csv");

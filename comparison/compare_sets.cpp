@@ -136,6 +136,9 @@ Compared compare_sets(const std::vector<MeasurementSet>& sets, const std::vector
   for (const RunGroup& group : groups) {
     of_groups.emplace_back(sets, group);
     of_groups.back().add_values(comparison);
+    for (std::string& sentence : of_groups.back().describe_loads(names)) {
+      comparison.warnings.push_back(std::move(sentence));
+    }
     if (!group.is_complete()) continue;
     std::vector<OverlaidRun> runs;
     for (std::size_t i = 0; i < sets.size(); ++i) runs.push_back(of_groups.back().lay(i));

@@ -123,13 +123,13 @@ struct TireTest {
   Json settings;
 };
 
-TireTest run_test(const RunSpec& spec, const std::function<void()>& advance) {
+TireTest run_test(const RunSpec& spec, int threads, const std::function<void()>& advance) {
   const TireNumbers numbers = TireNumbers::of(spec.tire);
   const auto count = static_cast<Eigen::Index>(numbers.keys.size());
   TireTest test;
   test.results.resize(1 + 2 * numbers.keys.size());
   parallel_for(
-      test.results.size(), 0,
+      test.results.size(), threads,
       [&](std::size_t i) {
         RunSpec own = spec;
         if (i > 0) {
@@ -190,7 +190,7 @@ std::size_t find_main_value(const std::vector<ComparedValue>& values) {
 }  // namespace
 
 Compared compare_tires(const std::vector<TireFile>& tires, const std::vector<VirtualTest>& tests,
-                       const std::vector<std::string>& names, const std::function<void(double)>& advance) {
+                       const std::vector<std::string>& names, int threads, const std::function<void(double)>& advance) {
   Compared compared;
   Comparison& comparison = compared.comparison;
   comparison.kind = ComparedKind::kTires;
@@ -210,7 +210,7 @@ Compared compare_tires(const std::vector<TireFile>& tires, const std::vector<Vir
   for (const VirtualTest& test : tests) {
     done.emplace_back();
     for (std::size_t i = 0; i < tires.size(); ++i) {
-      done.back().push_back(run_test(test.runs[i], count_run));
+      done.back().push_back(run_test(test.runs[i], threads, count_run));
       documents[i][test.scenario] = done.back().back().settings;
     }
     add_results(tires, test, done.back(), comparison);

@@ -16,7 +16,8 @@ struct VirtualTest {
   std::vector<scenarios::RunSpec> runs;  // one for each tire
 };
 
-/// Numbers of the tire files, and results of virtual tests. `advance` gets the share that is done.
+/// Numbers of the tire files, and results of virtual tests. With `threads` as of parallel_for().
+/// `advance` gets the share that is done.
 /// Equation  u^2(y) = sum_k [f(x + S L e_k) - f(x - S L e_k)]^2 / 4,  u^2(d) = u_A^2 + u_B^2
 /// Symbols   x numbers of the tire file with a standard uncertainty, S these uncertainties, L L^T their correlation, e_k
 ///           unit vector; d difference of the results of two tires
@@ -25,6 +26,6 @@ struct VirtualTest {
 /// Errors    RunFailure, Interrupted
 /// Checked   tests/comparison/compare_test.cpp
 Compared compare_tires(const std::vector<models::TireFile>& tires, const std::vector<VirtualTest>& tests,
-                       const std::vector<std::string>& names, const std::function<void(double)>& advance);
+                       const std::vector<std::string>& names, int threads, const std::function<void(double)>& advance);
 
 }  // namespace rollrig::comparison

@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/replace.hpp>
+#include <boost/algorithm/string/split.hpp>
 #include <cctype>
 #include <cmath>
+#include <map>
 
+#include "scenarios/run/scenario.h"
 #include "sim/core/units.h"
 
 namespace rollrig::comparison {
@@ -20,12 +25,28 @@ Difference subtract(const std::optional<double>& value, const std::optional<doub
   return difference;
 }
 
+namespace {
+
+/// "ISO RRc true" of "iso rrc true".
+std::string write_abbreviations(const std::string& text) {
+  static const std::map<std::string, std::string> kWritten{
+      {"rrc", "RRc"}, {"iso", "ISO"}, {"dc", "DC"}, {"ac", "AC"}, {"rr", "rolling resistance"}};
+  std::vector<std::string> words;
+  boost::algorithm::split(words, text, [](char c) { return c == ' '; });
+  for (std::string& word : words) {
+    if (const auto known = kWritten.find(word); known != kWritten.end()) word = known->second;
+  }
+  return boost::algorithm::join(words, " ");
+}
+
+}  // namespace
+
 std::string label_result(const std::string& key) {
   const std::size_t last = key.rfind('.');
   std::string own = plain_name(last == std::string::npos ? key : key.substr(last + 1));
   constexpr const char* kDeviation = "_sd";
   if (key.size() > 3 && key.compare(key.size() - 3, 3, kDeviation) == 0) own += ", standard deviation";
-  if (own.rfind("rrc", 0) == 0) own.replace(0, 3, "RRc");
+  own = write_abbreviations(own);
   if (own == "RRc 25degC 2m") own = "RRc at 25 degC, 2 m drum";
   if (last == std::string::npos) return own;
   std::string record = key.substr(0, last);  // "force_N.1": without the unit of the list
@@ -34,6 +55,23 @@ std::string label_result(const std::string& key) {
   std::replace(record.begin(), record.end(), '.', ' ');
   std::replace(record.begin(), record.end(), '_', ' ');
   return fmt::format("{}: {}", record, own);
+}
+
+std::string label_input(const std::string& key) {
+  const std::size_t last = key.rfind('.');
+  const std::string own = last == std::string::npos ? key : key.substr(last + 1);
+  const std::string unit = unit_of_key(own).symbol;
+  std::string name = last == std::string::npos ? "" : key.substr(0, last) + ": ";
+  std::replace(name.begin(), name.end(), '_', ' ');
+  boost::algorithm::replace_all(name, ".", ", ");
+  name += plain_name(own) + (unit.empty() ? "" : ", " + unit);
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return name;
+}
+
+std::string label_place(const std::string& place) {
+  const scenarios::Scenario* scenario = scenarios::find_scenario_if_any(place);
+  return scenario == nullptr ? place : scenario->text.summary.substr(0, scenario->text.summary.find_first_of(":,"));
 }
 
 void add_interval(double sd, double coverage_factor, Difference& difference) {
@@ -57,7 +95,8 @@ namespace {
 std::string describe_difference(const Comparison& comparison, const ComparedValue& value, std::size_t other) {
   const Difference& difference = value.differences[other - 1];
   const std::string& name = comparison.names[other];
-  const std::string what = value.place.empty() ? value.label : fmt::format("{} ({})", value.label, value.place);
+  const std::string what =
+      value.place.empty() ? value.label : fmt::format("{} ({})", value.label, label_place(value.place));
   if (!difference.value.has_value()) return fmt::format("{}: {} has no value", what, name);
   const std::string unit = value.unit.empty() ? "" : " " + value.unit;
   const double size = *difference.value;

@@ -46,6 +46,11 @@ Difference subtract(const std::optional<double>& value, const std::optional<doub
 /// A result in words: "RRc at 25 degC, 2 m drum", "sections city 1: rr energy" of "sections.city_1.rr_energy_Wh".
 std::string label_result(const std::string& key);
 
+/// An input in words: "Tire, geometry: outer diameter, m" of "tire.geometry.outer_diameter_m".
+std::string label_input(const std::string& key);
+/// A place in words: "Whole ISO 28580 test" of the test "iso_28580"; runs and phases as they are.
+std::string label_place(const std::string& place);
+
 /// Adds the interval of 95 % about the difference.
 void add_interval(double sd, double coverage_factor, Difference& difference);
 /// Says of a difference that has a value why it has no interval.

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
+#include <utility>
 
 #include "diagnosis/kinds/measurement_kind.h"
 
@@ -96,6 +99,40 @@ UncertainMean subtract_means(const UncertainMean& a, const UncertainMean& b) {
   return difference;
 }
 
+/// The name of a phase without its load: "80 km/h" of "80 km/h 5.4 kN"; all of another name.
+std::string drop_load(const std::string& name) {
+  constexpr std::string_view kUnit = "km/h";
+  const std::size_t at = name.find(kUnit);
+  return at == std::string::npos ? name : name.substr(0, at + kUnit.size());
+}
+
+/// Phases of a list that have no counterpart of their name in another, by what their names are without the load.
+std::map<std::string, std::vector<std::size_t>> list_alone(const std::vector<RunPhase>& phases,
+                                                           const std::vector<RunPhase>& others) {
+  std::map<std::string, std::vector<std::size_t>> alone;
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    if (find_phase(others, phases[i].name) == nullptr) alone[drop_load(phases[i].name)].push_back(i);
+  }
+  return alone;
+}
+
+/// Gives phases of a run that differ from those of the reference in their load alone the names that the reference has
+/// for them. Returns what was renamed: {from, to}. Two runs may have such phases in another number: these keep their
+/// names.
+RenamedPhases name_as(const std::vector<RunPhase>& reference, std::vector<RunPhase>& phases) {
+  RenamedPhases renamed;
+  const auto alone = list_alone(phases, reference);
+  for (const auto& [kind, of_reference] : list_alone(reference, phases)) {
+    const auto own = alone.find(kind);
+    if (own == alone.end() || own->second.size() != of_reference.size()) continue;
+    for (std::size_t i = 0; i < of_reference.size(); ++i) {
+      const std::string from = std::exchange(phases[own->second[i]].name, reference[of_reference[i]].name);
+      renamed.emplace_back(from, phases[own->second[i]].name);
+    }
+  }
+  return renamed;
+}
+
 bool is_skim(const RunPhase& phase) { return phase.name.rfind("skim", 0) == 0; }
 
 }  // namespace
@@ -112,7 +149,19 @@ GroupComparison::GroupComparison(const std::vector<MeasurementSet>& sets, const 
     : sets_(sets), group_(group) {
   for (std::size_t i = 0; i < sets.size(); ++i) {
     phases_.push_back(has(i) ? diagnosis::kind_of(sets[i]).find_phases(sets[i], run(i)) : std::vector<RunPhase>());
+    renamed_.push_back(i > 0 ? name_as(phases_.front(), phases_.back()) : RenamedPhases());
   }
+}
+
+std::vector<std::string> GroupComparison::describe_loads(const std::vector<std::string>& names) const {
+  std::vector<std::string> sentences;
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    for (const auto& [own, of_reference] : renamed_[i]) {
+      sentences.push_back(fmt::format("run {}: the loads differ; {} of {} is compared with {} of {}", run(0).id, own,
+                                      names[i], of_reference, names.front()));
+    }
+  }
+  return sentences;
 }
 
 std::string GroupComparison::name_place(const RunPhase& phase) const {

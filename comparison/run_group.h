@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "comparison/compared.h"
@@ -28,6 +29,9 @@ struct PairedMeans {
   UncertainMean difference;
 };
 
+/// Names of phases of a run, each with that of the phase of the reference that differs from it in its load alone.
+using RenamedPhases = std::vector<std::pair<std::string, std::string>>;
+
 /// "drum_torque_less_skim_Nm"
 std::string name_less_skim(const Quantity& force);
 
@@ -38,6 +42,8 @@ class GroupComparison {
 
   const measurements::MeasuredRun& run(std::size_t set) const { return sets_[set].runs[*group_.runs[set]]; }
   const std::vector<diagnosis::RunPhase>& phases(std::size_t set) const { return phases_[set]; }
+  /// Which phases are compared though their loads differ, a sentence each; `names` are those of the sets.
+  std::vector<std::string> describe_loads(const std::vector<std::string>& names) const;
   /// "warm-up, 80 km/h 5.4 kN" of a phase of the reference.
   std::string name_place(const diagnosis::RunPhase& phase) const;
 
@@ -67,7 +73,8 @@ class GroupComparison {
 
   const std::vector<measurements::MeasurementSet>& sets_;
   const RunGroup& group_;
-  std::vector<std::vector<diagnosis::RunPhase>> phases_;
+  std::vector<std::vector<diagnosis::RunPhase>> phases_;  // of one kind of motion with the names of the reference
+  std::vector<RenamedPhases> renamed_;
 };
 
 }  // namespace rollrig::comparison

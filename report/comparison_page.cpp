@@ -83,33 +83,44 @@ bool is_condition(const ComparedValue& value) {
   return kConditions.count(value.name) > 0;
 }
 
-/// Whether two values differ alike, to rounding: one bar tells both.
+/// Whether two values differ by the same share in each of the compared, to rounding: one is the other times a constant,
+/// as a force is a torque over the radius of the drum.
 bool differ_alike(const ComparedValue& a, const ComparedValue& b) {
   constexpr double kSame = 1e-6;
-  const auto is_same = [](const std::optional<double>& x, const std::optional<double>& y) {
-    return x.has_value() == y.has_value() && (!x.has_value() || std::abs(*x - *y) <= kSame * std::abs(*x));
-  };
-  return a.unit == b.unit && is_same(a.values.front(), b.values.front()) &&
-         is_same(a.differences.front().value, b.differences.front().value);
+  return std::equal(a.differences.begin(), a.differences.end(), b.differences.begin(), b.differences.end(),
+                    [](const Difference& x, const Difference& y) {
+                      if (x.percent.has_value() != y.percent.has_value()) return false;
+                      return !x.percent.has_value() ||
+                             std::abs(*x.percent - *y.percent) <= kSame * std::abs(*x.percent);
+                    });
 }
 
 /// Values whose differences have a bar: no conditions of the test, nothing twice; those with an interval first, then
 /// those that differ most.
-std::vector<const ComparedValue*> choose_bars(const Comparison& comparison) {
+std::vector<const ComparedValue*> choose_bars(const Comparison& comparison, const std::optional<std::size_t>& main) {
   constexpr std::size_t kMost = 10;  // as many have room
-  std::vector<const ComparedValue*> chosen;
+  std::vector<const ComparedValue*> candidates;
   for (const ComparedValue& value : comparison.values) {
     const bool is_of_list = value.name.find('.') != std::string::npos;  // or a number of a tire file
     const bool is_uncertainty = value.name.find("uncertainty") != std::string::npos;
     if (!value.differences.front().percent.has_value() || value.unit == "s" || is_of_list || is_uncertainty) continue;
     if (*value.differences.front().percent == 0.0 || is_condition(value)) continue;
-    const bool is_known = std::any_of(chosen.begin(), chosen.end(),
-                                      [&value](const ComparedValue* one) { return differ_alike(*one, value); });
-    if (!is_known) chosen.push_back(&value);
+    candidates.push_back(&value);
   }
-  const auto weigh = [](const ComparedValue* value) {
-    const Difference& first = value->differences.front();
-    return std::pair(first.sd.has_value() ? 1 : 0, std::abs(*first.percent));
+  // Of values that are told by one bar, it is that of the main value, else of the first with an interval.
+  const ComparedValue* main_value = main.has_value() ? &comparison.values[*main] : nullptr;
+  const auto has_interval = [](const ComparedValue* value) { return value->differences.front().sd.has_value(); };
+  std::stable_partition(candidates.begin(), candidates.end(), has_interval);
+  std::stable_partition(candidates.begin(), candidates.end(),
+                        [&](const ComparedValue* one) { return one == main_value; });
+  std::vector<const ComparedValue*> chosen;
+  for (const ComparedValue* value : candidates) {
+    const bool is_known = std::any_of(chosen.begin(), chosen.end(),
+                                      [value](const ComparedValue* one) { return differ_alike(*one, *value); });
+    if (!is_known) chosen.push_back(value);
+  }
+  const auto weigh = [&](const ComparedValue* value) {
+    return std::pair(has_interval(value), std::abs(*value->differences.front().percent));
   };
   std::stable_sort(chosen.begin(), chosen.end(),
                    [&](const ComparedValue* a, const ComparedValue* b) { return weigh(a) > weigh(b); });
@@ -120,7 +131,8 @@ std::vector<const ComparedValue*> choose_bars(const Comparison& comparison) {
 Block make_difference_bars(const Comparison& comparison, const std::vector<const ComparedValue*>& chosen) {
   Json categories = Json::array();
   for (const ComparedValue* value : chosen) {
-    categories.push_back(capitalized(value->label) + (value->place.empty() ? "" : ", " + value->place));
+    categories.push_back(capitalized(value->label) +
+                         (value->place.empty() ? "" : ", " + comparison::label_place(value->place)));
   }
   Json series = Json::array();
   for (std::size_t other = 1; other < comparison.names.size(); ++other) {
@@ -135,8 +147,10 @@ Block make_difference_bars(const Comparison& comparison, const std::vector<const
     }
     series.push_back({{"name", comparison.names[other]}, {"values", values}, {"low", low}, {"high", high}});
   }
-  return make_bars({fmt::format("Difference from {}", comparison.names.front()), "%"}, categories, series,
-                   "Whiskers are intervals of 95 %; where there is none, none is known.");
+  return make_bars(
+      {fmt::format("Difference from {}", comparison.names.front()), "%"}, categories, series,
+      "Whiskers are intervals of 95 %; where there is none, none is known. Of values that differ by the same "
+      "share, one has a bar.");
 }
 
 /// So many points of a line that a page with all of them stays small.
@@ -194,6 +208,13 @@ Block make_overlay_block(const Comparison& comparison, const Overlay& overlay, s
   return block;
 }
 
+/// The table of the terminal, whose keys options and files take, with names in place of the keys.
+Table make_named_inputs(const Comparison& comparison) {
+  Table table = make_comparison_input_table(comparison);
+  for (std::vector<std::string>& row : table.rows) row.front() = comparison::label_input(row.front());
+  return table;
+}
+
 Block make_list_block(const std::vector<std::string>& items) { return {{"type", "text"}, {"items", items}}; }
 
 }  // namespace
@@ -208,13 +229,13 @@ Page make_comparison_page(const comparison::Compared& compared) {
     top.blocks.push_back(make_main_tiles(comparison, *compared.main));
   }
   if (!comparison.warnings.empty()) top.blocks.push_back(make_warnings(comparison.warnings));
-  const std::vector<const ComparedValue*> bars = choose_bars(comparison);
+  const std::vector<const ComparedValue*> bars = choose_bars(comparison, compared.main);
   if (!bars.empty()) top.blocks.push_back(make_difference_bars(comparison, bars));
   page.add(std::move(top));
   page.add({"Inputs",
             "",
             {comparison.inputs.empty() ? make_paragraph("All inputs are the same.")
-                                       : make_table(make_comparison_input_table(comparison))}});
+                                       : make_table(make_named_inputs(comparison))}});
   Section energy{"Energy"};
   for (const EnergyWaterfall& waterfall : comparison.waterfalls) {
     energy.blocks.push_back(make_waterfall_block(comparison, waterfall));

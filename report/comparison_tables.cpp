@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "comparison/compared.h"
 #include "report/blocks.h"
 #include "report/comparison_page.h"
 #include "sim/core/text.h"
@@ -33,8 +34,8 @@ bool is_same_value(const ComparedValue& value, std::size_t other) {
 
 /// Differences of one from the reference, of one place. Values that are the same are counted.
 Table make_difference_table(const Comparison& comparison, std::size_t other, const std::string& place) {
-  const std::string title =
-      fmt::format("{}{} less {}", place.empty() ? "" : place + ": ", comparison.names[other], comparison.names.front());
+  const std::string title = fmt::format("{}{} less {}", place.empty() ? "" : comparison::label_place(place) + ": ",
+                                        comparison.names[other], comparison.names.front());
   Table table{title, {"name", comparison.names.front(), comparison.names[other], "difference", "+- (95 %)", "%"}, {}};
   std::size_t same = 0;
   for (const ComparedValue& value : comparison.values) {
@@ -99,7 +100,8 @@ std::vector<Table> make_comparison_difference_tables(const Comparison& compariso
 }
 
 std::vector<EnergyStep> list_shown_steps(const EnergyWaterfall& waterfall) {
-  constexpr double kSmall = 1e-3;  // of the largest step
+  constexpr double kSmall = 1e-3;     // of the largest step
+  constexpr double kRounding = 1e-9;  // of the energies at the ends
   double most_J = 0.0;
   for (const EnergyStep& step : waterfall.steps) most_J = std::max(most_J, std::abs(step.energy_J));
   std::vector<EnergyStep> shown;
@@ -111,7 +113,9 @@ std::vector<EnergyStep> list_shown_steps(const EnergyWaterfall& waterfall) {
       others_J += step.energy_J;
     }
   }
-  if (shown.size() < waterfall.steps.size()) shown.push_back({"other terms", others_J});
+  if (std::abs(others_J) > kRounding * (std::abs(waterfall.start_J) + std::abs(waterfall.end_J))) {
+    shown.push_back({"other terms", others_J});
+  }
   return shown;
 }
 

@@ -20,6 +20,7 @@ struct CompareInput {
                                       // the reference
   std::string scenario;               // of tires: a virtual test beside that of ISO 28580; empty: none
   BadRows bad_rows = BadRows::kRefuse;  // of sets
+  int threads = 0;                      // of the virtual tests of tires; 0: as many as the machine has
 };
 
 /// An input that is not the same in all.

@@ -165,6 +165,9 @@ std::string name_without_unit(std::string_view key) {
 std::string plain_name(std::string_view key) {
   std::string name = name_without_unit(key);
   std::replace(name.begin(), name.end(), '_', ' ');
+  const std::size_t last = name.rfind('.');
+  if (last != std::string::npos) name.insert(last + 1, " ")[last] = ':';
+  std::replace(name.begin(), name.end(), '.', ' ');
   return name;
 }
 

@@ -1,4 +1,5 @@
 // rollrig compare as a user meets it: results, measurement sets and tires side by side.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -35,6 +36,12 @@ const json& find_named(const json& comparison, const std::string& name, const st
 
 json compare(const TemporaryFolder& folder, const std::string& arguments) {
   return json::parse(run_well(folder, "compare " + arguments + " --json -").out);
+}
+
+json read_payload(const std::string& html) {
+  const std::string mark = "id=\"payload\">";
+  const std::size_t first = html.find(mark) + mark.size();
+  return json::parse(html.substr(first, html.find("</script>", first) - first));
 }
 
 }  // namespace
@@ -121,6 +128,40 @@ TEST_CASE("a set whose torque has a gain shows it less skim, where the zeros of 
   CHECK(comparison["message"].get<std::string>().find("drum torque less skim") != std::string::npos);
 }
 
+TEST_CASE("sets of different loads are compared in their loaded phases", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string made = kQuick + "--tire a50 --sensors source --set warm_up_min=20 ";
+  run_well(folder, made + "--seed 1 --write-set heavy");
+  run_well(folder, made + "--seed 2 --set load_N=4000 --write-set light");
+  const json comparison = compare(folder, "heavy light");
+  const json& torque = find_named(comparison, "drum_torque_less_skim_Nm");
+  INFO(torque.dump());
+  CHECK_THAT(torque["place"].get<std::string>(), Contains("kN"));
+  CHECK(torque["differences"][0]["ci95"][1].get<double>() < 0.0);  // less load, less torque
+  const double by_load_percent = 100.0 * (4000.0 / 6865.0 - 1.0);  // the tire's loss goes with about its load
+  CHECK(torque["differences"][0]["percent"].get<double>() == Approx(by_load_percent).epsilon(0.3));
+  CHECK_THAT(comparison["warnings"].dump(), Contains("the loads differ"));
+  CHECK_FALSE(comparison["warnings"].dump().find("the phases differ") != std::string::npos);
+}
+
+TEST_CASE("bars of a comparison show no quantity twice", "[fast]") {
+  const TemporaryFolder folder;
+  // Of a drum with a radius of 1 m, torques and forces have the same numbers.
+  run_well(folder, kQuick + "--tire a50 --uncertainty --out a");
+  run_well(folder, kQuick + "--tire a40 --uncertainty --out b");
+  run_well(folder, "compare a b --html page.html");
+  const json page = read_payload(read_file(folder.file("page.html")));
+  const json& blocks = page["sections"][0]["blocks"];
+  const auto bars =
+      std::find_if(blocks.begin(), blocks.end(), [](const json& block) { return block["type"] == "bars"; });
+  REQUIRE(bars != blocks.end());
+  std::vector<double> shown = (*bars)["series"][0]["values"];
+  std::sort(shown.begin(), shown.end());
+  INFO(bars->dump());
+  CHECK(shown.size() >= 2);
+  CHECK(std::adjacent_find(shown.begin(), shown.end()) == shown.end());
+}
+
 TEST_CASE("a damaged result is named, whichever it is", "[fast]") {
   const TemporaryFolder folder;
   run_well(folder, kQuick + "--tire a50 --out good");
@@ -160,6 +201,13 @@ TEST_CASE("tires are compared by their numbers and by a test of each", "[fast]")
   const json result = json::parse(read_file(folder.file("a40_result/result.json")));
   CHECK(rrc["values"][0].get<double>() == Approx(result["result"]["rrc_25degC_2m_N_per_kN"].get<double>()));
   CHECK(rrc["differences"][0]["sd"].get<double>() > 0.0);
+}
+
+TEST_CASE("a comparison of tires does not depend on the number of threads", "[fast]") {
+  const TemporaryFolder folder;
+  run_well(folder, "compare a40 a50 --threads 1 --json one.json");
+  run_well(folder, "compare a40 a50 --threads 2 --json two.json");
+  CHECK(read_file(folder.file("one.json")) == read_file(folder.file("two.json")));
 }
 
 TEST_CASE("a tire and its copy do not differ, and surely so", "[fast]") {
