@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "comparison/compared.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
 
@@ -128,6 +129,11 @@ std::vector<std::string> name_numbers(const std::vector<std::string>& keys) {
   return names;
 }
 
+std::string name_set(const std::string& name) {
+  const std::string of_scenario = comparison::label_place(name);
+  return of_scenario == name ? name : "a set: " + of_scenario;
+}
+
 Table make_estimate_table(const std::string& title, const std::vector<ParameterEstimate>& estimates) {
   Table table{title, {"parameter", "value", "sd", "from", "to", "unit"}, {}};
   for (const ParameterEstimate& at : estimates) {
@@ -147,8 +153,8 @@ Block make_equations(const std::string& of) { return {{"type", "equations"}, {"o
 Block make_paragraph(const std::string& text) { return {{"type", "text"}, {"paragraphs", Json::array({text})}}; }
 
 Block make_lead(const std::string& tone, const std::string& text, const std::string& more) {
-  Block block = {{"type", "lead"}, {"tone", tone}, {"text", text}};
-  if (!more.empty()) block["more"] = more;
+  Block block = {{"type", "lead"}, {"tone", tone}, {"text", pretty_unit(text)}};
+  if (!more.empty()) block["more"] = pretty_unit(more);
   return block;
 }
 

@@ -89,6 +89,8 @@ Section make_section(const std::string& title, const std::vector<Table>& tables,
 /// Names of numbers of files as a person reads them: "heat capacity" of "thermal.heat_capacity_J_per_K"; with the name
 /// of the table before it where two would be the same.
 std::vector<std::string> name_numbers(const std::vector<std::string>& keys);
+/// The name of a measurement set in a title: of one that has the name of the scenario that wrote it, what that is.
+std::string name_set(const std::string& name);
 /// Fitted numbers with their intervals; one without a standard deviation is on its bound.
 Table make_estimate_table(const std::string& title, const std::vector<ParameterEstimate>& estimates);
 /// Typeset equations of a procedure, by their name in report/web/equations.json; nothing where it has none.

@@ -80,7 +80,7 @@ Page make_diagnosis_page(const measurements::MeasurementSet& set, const Diagnosi
   const diagnosis::PreparedSet prepared(set);
   const std::vector<SimulatedSet> simulated = simulate_before_and_after(prepared, diagnosis);
   const std::string restriction = diagnosis::describe_restriction(diagnosis, &name_effect);
-  Page page{"diagnose", fmt::format("Diagnosis of {}", diagnosis.set), describe_set(set)};
+  Page page{"diagnose", fmt::format("Diagnosis of {}", name_set(diagnosis.set)), describe_set(set)};
   if (!restriction.empty()) page.subtitle += "; compared: " + restriction;
   page.add(make_verdict(diagnosis));
   page.add(make_causes(diagnosis));

@@ -167,13 +167,13 @@ Block make_explanation(const models::EffectInfo& info) {
   };
   std::vector<std::string> parameters;
   for (const models::EffectParameter& each : info.parameters) {
-    parameters.push_back(fmt::format("{}: {}", each.key, diagnosis::describe_parameter(each)));
+    parameters.push_back(fmt::format("{}: {}", plain_name(each.key), diagnosis::describe_parameter(each)));
   }
   std::vector<std::string> confusions;
   for (const std::string& id : info.confused_with) confusions.push_back(name_effect(id) + ": " + summary_of(id));
   add("What it is", {info.summary});
   add("On the command line", {info.id}, true);
-  add("Equation", {info.equation}, true);
+  items.push_back({{"term", "Equation"}, {"of", "effect " + info.id}});
   add("Source", {info.source});
   add("Own parameters", parameters);
   add("Confused with", confusions);

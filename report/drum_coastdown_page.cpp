@@ -243,7 +243,7 @@ Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) 
   const std::vector<Tile> tiles = make_coast_tiles(set, fit);
   if (!tiles.empty()) result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
   page.add(std::move(result));
-  page.add({"Over speed", "", {make_net_chart(set, fit)}});
+  page.add({"Over speed", "", {make_equations("fit drum_coastdown"), make_net_chart(set, fit)}});
   const bool has_exponent = std::any_of(fit.points.begin(), fit.points.end(),
                                         [](const SpeedPoint& point) { return point.pressure_exponent.has_value(); });
   if (has_exponent) page.add({"Pressure", "", {make_exponent_chart(fit)}});

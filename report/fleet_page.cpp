@@ -33,8 +33,8 @@ Block make_recurrences(const Fleet& fleet) {
   Table table{
       "", {"effect", "with", "sets", "named in", "probability that it acts in all", "mean size", "sd", "unit"}, {}};
   for (const Recurrence& at : fleet.recurrences) {
-    table.rows.push_back({at.effect, name_shared(at), fmt::format("{}", at.sets), fmt::format("{}", at.named_in),
-                          show_probability(at.probability),
+    table.rows.push_back({name_effect(at.effect), name_shared(at), fmt::format("{}", at.sets),
+                          fmt::format("{}", at.named_in), show_probability(at.probability),
                           at.mean_size.has_value() ? fmt::format("{:.3g}", *at.mean_size) : "-",
                           at.mean_size.has_value() ? fmt::format("{:.2g}", at.mean_size_sd) : "-", at.unit});
   }

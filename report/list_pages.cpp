@@ -106,6 +106,12 @@ std::string show_share(const Json& share) {
   return share.is_null() ? "none allowed" : fmt::format("{:.2g}", share.get<double>());
 }
 
+/// "motor power at 1082 s" of "motor_power_W at 1082 s".
+std::string name_quantity(const std::string& text) {
+  const std::size_t end = text.find(' ');
+  return plain_name(text.substr(0, end)) + (end == std::string::npos ? "" : text.substr(end));
+}
+
 }  // namespace
 
 Table make_regress_table(const Json& regression) {
@@ -145,7 +151,9 @@ Page make_regress_page(const Json& regression) {
   verdict.blocks.push_back(make_bars({"Worst difference of each run", "of its tolerance"}, names,
                                      Json::array({{{"name", "worst"}, {"values", shares}}}),
                                      "A run differs where its bar is above 1."));
-  verdict.blocks.push_back(make_table(make_regress_table(regression)));
+  Table table = make_regress_table(regression);
+  for (std::vector<std::string>& row : table.rows) row.back() = name_quantity(row.back());
+  verdict.blocks.push_back(make_table(table));
   page.add(std::move(verdict));
   if (!problems.empty()) page.add({"What differs", "", {{{"type", "text"}, {"items", problems}}}});
   return page;

@@ -55,7 +55,7 @@ Block make_probability_bars(const PairFindings& findings) {
   }
   Json names = Json::array(), values = Json::array();
   for (const auto& [name, probability] : sorted) {
-    names.push_back(name);
+    names.push_back(plain_name(name));
     values.push_back(rounded(100.0 * probability));
   }
   return make_bars({"Probability", "%", true}, names, {{{"name", "probability"}, {"values", values}}},
@@ -121,10 +121,20 @@ Block make_pair_tiles(const PairFindings& findings) {
   return make_tiles(tiles);
 }
 
+/// The table of the terminal, with the names of effects in place of their ids.
+Table make_named_differences(const PairFindings& findings) {
+  Table table = diagnosis::make_difference_table(findings);
+  for (std::vector<std::string>& row : table.rows) {
+    row.front() = plain_name(row.front());
+    row.back() = plain_name(row.back());
+  }
+  return table;
+}
+
 Block make_parameter_table(const MachineDifference& cause) {
   Table table{"", {"parameter", "value", "95 % interval", "unit"}, {}};
   for (const ParameterEstimate& one : cause.parameters) {
-    table.rows.push_back({one.name, fmt::format("{:.3g}", one.value),
+    table.rows.push_back({plain_name(one.name), fmt::format("{:.3g}", one.value),
                           fmt::format("{:.3g} to {:.3g}", one.low_95, one.high_95), one.unit});
   }
   return make_table(table);
@@ -157,7 +167,7 @@ Page make_machine_pair_page(const PairFindings& findings) {
     page.add(std::move(rrc));
   }
   Section causes{"Effects in which they may differ"};
-  if (!findings.causes.empty()) causes.blocks.push_back(make_table(diagnosis::make_difference_table(findings)));
+  if (!findings.causes.empty()) causes.blocks.push_back(make_table(make_named_differences(findings)));
   causes.blocks.push_back(make_probability_bars(findings));
   if (!findings.causes.empty()) causes.blocks.push_back(make_parameter_table(findings.causes.front()));
   page.add(std::move(causes));

@@ -329,7 +329,9 @@ Page make_multipoint_page(const estimation::RollingTest& test, const MultipointF
                    {"/mean_rrc_N_per_kN"}});
   result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
   page.add(std::move(result));
-  page.add({"Points and law", "", {make_multipoint_chart(fit)}});
+  const char* form =
+      fit.form == estimation::MultipointForm::kBilinear ? "fit j1269 bilinear" : "fit j1269 proportional";
+  page.add({"Points and law", "", {make_equations(form), make_multipoint_chart(fit)}});
   page.add({"Residuals", "", {make_residual_chart_of(fit.points, false)}});
   page.add(make_document(estimation::make_multipoint_json(test, fit, reference), "The fit as JSON"));
   return page;

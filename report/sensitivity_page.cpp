@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 
+#include "comparison/compared.h"
 #include "report/blocks.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -33,12 +35,12 @@ Block make_index_bars(const Json& sensitivity) {
   Json names = Json::array();
   for (const Json& each : factors) names.push_back(plain_name(last_part(each["key"].get<std::string>())));
   if (factors.front().contains("total")) {
-    return make_bars({"Share of the variance of " + plain_name(result), "%"}, names,
+    return make_bars({"Share of the variance of " + comparison::label_result(result), "%"}, names,
                      Json::array({make_index_series(factors, "first", "alone", 100.0),
                                   make_index_series(factors, "total", "with interactions", 100.0)}),
                      "The factor with the largest share first. Whiskers: intervals of 95 %.");
   }
-  return make_bars({"Size of the change of " + plain_name(result), shown_unit(result)}, names,
+  return make_bars({"Size of the change of " + comparison::label_result(result), shown_unit(result)}, names,
                    Json::array({make_index_series(factors, "mean_size", "mean size", 1.0)}),
                    "As the factor goes up by half of its probability. Whiskers: intervals of 95 %.");
 }
@@ -51,7 +53,7 @@ Block make_factor_chart(const std::string& result, const FactorScatter& scatter)
     if (std::isfinite(scatter.results[i])) points.add(scatter.values[i], scatter.results[i]);
   }
   const std::string key = last_part(scatter.key);
-  return make_curves({plain_name(key), shown_unit(key)}, {plain_name(result), shown_unit(result)},
+  return make_curves({plain_name(key), shown_unit(key)}, {comparison::label_result(result), shown_unit(result)},
                      Json::array({points.finish("items")}));
 }
 
@@ -88,10 +90,12 @@ Ranges make_ranges(const std::vector<double>& values) {
   return ranges;
 }
 
-std::string with_unit(const std::string& key) {
+std::string with_unit(const std::string& key, const std::string& name) {
   const std::string unit = shown_unit(last_part(key));
-  return plain_name(last_part(key)) + (unit.empty() ? "" : " in " + unit);
+  return name + (unit.empty() ? "" : " in " + unit);
 }
+
+std::string with_unit(const std::string& key) { return with_unit(key, plain_name(last_part(key))); }
 
 /// The mean result over two factors, each in a few ranges.
 Block make_map(const std::string& result, const FactorScatter& across, const FactorScatter& down) {
@@ -132,8 +136,8 @@ Block make_map(const std::string& result, const FactorScatter& across, const Fac
             {"note", format_count(cell.count, "item")}};
   };
   Block block{{"type", "map"},
-              {"caption", fmt::format("Mean of {} over {} and {}", with_unit(result), plain_name(last_part(across.key)),
-                                      plain_name(last_part(down.key)))},
+              {"caption", fmt::format("Mean of {} over {} and {}", with_unit(result, comparison::label_result(result)),
+                                      plain_name(last_part(across.key)), plain_name(last_part(down.key)))},
               {"heads", {with_unit(down.key), ""}},
               {"columns", columns.names},
               {"rows", Json::array()},
@@ -147,10 +151,19 @@ Block make_map(const std::string& result, const FactorScatter& across, const Fac
 
 }  // namespace
 
-Page make_sensitivity_page(const Json& sensitivity, const Table& table, const std::string& explanation,
+Page make_sensitivity_page(const Json& sensitivity, const Table& of_terminal, const std::string& said,
                            const std::vector<FactorScatter>& scatters) {
   const std::string result = sensitivity["result"];
-  Page page{"campaign sensitivity", "Sensitivity of " + plain_name(result),
+  Table table = of_terminal;
+  std::string explanation = said;
+  // The terminal names what options take, the page says what it is.
+  for (std::string* text : {&table.title, &explanation}) {
+    boost::algorithm::replace_first(*text, result, comparison::label_result(result));
+  }
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    table.rows[i].front() = plain_name(last_part(sensitivity["factors"][i]["key"].get<std::string>()));
+  }
+  Page page{"campaign sensitivity", "Sensitivity of " + comparison::label_result(result),
             format_count(sensitivity["factors"].size(), "factor")};
   page.add({"What the result depends on", explanation, {make_index_bars(sensitivity), make_table(table)}});
   const std::size_t items = scatters.empty() ? 0 : scatters.front().values.size();

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/algorithm/string/replace.hpp>
 #include <cmath>
 #include <limits>
 
+#include "comparison/compared.h"
 #include "report/blocks.h"
 #include "report/list_pages.h"
 #include "report/sweep_values.h"
@@ -35,9 +35,7 @@ std::string name_result(const std::string& key, const Headlines& headlines) {
   for (const auto& [known, label] : headlines) {
     if (known == key) return pretty_unit(label);
   }
-  std::string name = plain_name(key);
-  if (name.rfind("rrc", 0) == 0) name.replace(0, 3, "RRc");
-  return capitalized(boost::algorithm::replace_all_copy(name, "degC", " °C"));
+  return capitalized(pretty_unit(comparison::label_result(key)));
 }
 
 std::string with_unit_of(const std::string& name, const std::string& key) {
@@ -163,6 +161,41 @@ Tile make_sensitivity_tile(const Json& sensitivity, const std::string& place) {
   return tile;
 }
 
+/// A result at a point.
+Tile make_point_tile(const Json& sweep, std::size_t point, const std::string& key, const std::string& name) {
+  const std::size_t points = sweep["points"].size();
+  Tile tile{name,
+            fmt::format("{:.4g}", list_results(sweep, key)[point]),
+            unit_of_key(key).symbol,
+            points == 1 ? name_sweep_line(sweep["points"][point], list_sweep_axes(sweep))
+                        : fmt::format("the same in all {} runs", points),
+            "",
+            {}};
+  // A number of a list has another place in the file.
+  if (key.find('.') == std::string::npos) tile.from = {fmt::format("/points/{}/result/{}", point, key)};
+  return tile;
+}
+
+/// What matters most, where nothing changes from point to point, as with a single one.
+std::vector<Tile> make_equal_tiles(const Json& sweep, const Headlines& headlines) {
+  constexpr std::size_t kMost = 4;
+  const std::vector<std::string> known = list_numbers(sweep);
+  std::vector<std::string> keys;
+  for (const auto& headline : headlines) {
+    if (std::find(known.begin(), known.end(), headline.first) != known.end()) keys.push_back(headline.first);
+  }
+  if (keys.empty() && !known.empty()) keys.push_back(known.front());
+  std::vector<Tile> tiles;
+  for (const std::string& key : keys) {
+    const std::vector<double> values = list_results(sweep, key);
+    const auto first = std::find_if(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
+    if (first == values.end() || tiles.size() == kMost) continue;
+    const auto point = static_cast<std::size_t>(first - values.begin());
+    tiles.push_back(make_point_tile(sweep, point, key, name_result(key, headlines)));
+  }
+  return tiles;
+}
+
 /// The first result's range, and its sensitivity to each axis.
 std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::string& key, const std::string& name) {
   const std::vector<double> values = list_results(sweep, key);
@@ -173,17 +206,11 @@ std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::string& key, co
     if (highest == values.size() || values[i] > values[highest]) highest = i;
   }
   if (lowest == values.size()) return {};
+  if (!(values[lowest] < values[highest])) return {make_point_tile(sweep, lowest, key, name)};
   std::vector<Tile> tiles;
   const auto add_end = [&](const char* which, std::size_t point) {
-    Tile tile{fmt::format("{} {}", which, name),
-              fmt::format("{:.4g}", values[point]),
-              unit_of_key(key).symbol,
-              name_sweep_line(sweep["points"][point], list_sweep_axes(sweep)),
-              "",
-              {}};
-    // A number of a list has another place in the file.
-    if (key.find('.') == std::string::npos) tile.from = {fmt::format("/points/{}/result/{}", point, key)};
-    tiles.push_back(std::move(tile));
+    tiles.push_back(make_point_tile(sweep, point, key, fmt::format("{} {}", which, name)));
+    tiles.back().note = name_sweep_line(sweep["points"][point], list_sweep_axes(sweep));
   };
   add_end("Lowest", lowest);
   add_end("Highest", highest);
@@ -246,10 +273,10 @@ Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const st
   for (const std::string& axis : axes) names.push_back(name_axis(axis));
   Page page{"sweep", fmt::format("Sweep over {}", fmt::join(names, " and ")), name_scenario(sweep) + subtitle};
   Section charts{"Results"};
-  if (!shown.empty()) {
-    const std::vector<Tile> tiles = make_sweep_tiles(sweep, shown.front(), name_result(shown.front(), headlines));
-    if (!tiles.empty()) charts.blocks.push_back(make_tiles(tiles));
-  }
+  const std::vector<Tile> tiles = shown.empty()
+                                      ? make_equal_tiles(sweep, headlines)
+                                      : make_sweep_tiles(sweep, shown.front(), name_result(shown.front(), headlines));
+  if (!tiles.empty()) charts.blocks.push_back(make_tiles(tiles));
   const std::vector<std::string> failures = list_point_failures(sweep);
   if (!failures.empty()) charts.blocks.push_back(make_warnings(failures));
   if (!shown.empty() && axes.size() == 2) {

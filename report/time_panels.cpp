@@ -95,6 +95,7 @@ struct Panel {
 struct DrawnRows {
   std::vector<double> time_s;
   std::vector<double> values;
+  std::vector<double> held_s;  // times of points that are no rows
 };
 
 DrawnRows hold_to_jumps(const sim::Recording<double>& recording, const std::vector<double>& values) {
@@ -109,6 +110,7 @@ DrawnRows hold_to_jumps(const sim::Recording<double>& recording, const std::vect
       const bool is_jump = std::abs(values[i] - values[i - 1]) > kJump * std::abs(values[i - 1] - values[i - 2]);
       if (before_s > kShorter * after_s && is_jump) {
         rows.time_s.push_back(time_s[i] - after_s);
+        rows.held_s.push_back(rows.time_s.back());
         rows.values.push_back(values[i - 1]);
       }
     }
@@ -195,6 +197,14 @@ std::string drop_empty_panels(std::vector<Panel>& panels) {
   return text;
 }
 
+/// Says which points of a series are no rows; some may have been thinned out.
+void add_held_times(const std::vector<double>& held_s, Json& series) {
+  for (const double time_s : held_s) {
+    const Json time = std::round(1e3 * time_s) / 1e3;  // as make_series() writes it
+    if (std::find(series["t"].begin(), series["t"].end(), time) != series["t"].end()) series["held"].push_back(time);
+  }
+}
+
 Panel& find_panel(std::vector<Panel>& panels, const Place& place, const std::string& unit) {
   for (Panel& panel : panels) {
     if (panel.label == place.panel && panel.unit == unit) return panel;
@@ -241,6 +251,7 @@ Block make_times(const sim::Recording<double>& recording) {
     const std::vector<double> values = in_unit_of(channel, recording.values[i]);
     const DrawnRows rows = hold_to_jumps(recording, values);
     Json series = make_series(place->series, rows.time_s, rows.values, most_points);
+    add_held_times(rows.held_s, series);
     series["phases"] = summarize_phases(recording, values);
     if (place->is_read) series["recorded"] = make_recorded(recording.time_s, values);
     panel.series.push_back(std::move(series));

@@ -171,6 +171,18 @@ models::Context<double> make_fitted_context(measurements::MeasurementSet set, co
   return context;
 }
 
+/// The warnings with the names of the numbers in place of their keys.
+std::vector<std::string> name_keys(std::vector<std::string> warnings, const TireFit& fit) {
+  const std::vector<std::string> names = name_estimates(fit);
+  for (std::string& warning : warnings) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string key = estimation::find_file_key(fit.estimates[i].key);
+      if (warning.rfind(key + " ", 0) == 0) warning.replace(0, key.size(), capitalized(names[i]));
+    }
+  }
+  return warnings;
+}
+
 }  // namespace
 
 std::vector<Table> make_tire_fit_tables(const TireFit& fit) {
@@ -179,10 +191,10 @@ std::vector<Table> make_tire_fit_tables(const TireFit& fit) {
 
 Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& fit) {
   Page page{
-      "fit tire", fmt::format("Tire {} fitted to {}", fit.tire.name, set.name),
+      "fit tire", fmt::format("Tire {} fitted to {}", fit.tire.name, name_set(set.name)),
       fmt::format("From tire {}, rig {}, {}", set.tire.name, set.rig->name, format_count(set.runs.size(), "run"))};
   const Json document = estimation::make_fit_json(set, fit);
-  Section result = make_section("Result", make_tire_fit_tables(fit), fit.warnings);
+  Section result = make_section("Result", make_tire_fit_tables(fit), name_keys(fit.warnings, fit));
   result.blocks.insert(result.blocks.begin(), {make_steady_tiles(fit), make_forest(fit)});
   page.add(std::move(result));
   const diagnosis::PreparedSet prepared(set);
@@ -197,6 +209,7 @@ Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& 
     runs.blocks.push_back(make_comparison(prepared, run, {fitted}));
   }
   page.add(std::move(runs));
+  page.add({"Law of the tire", "", {make_equations("tire " + models::id_of(fit.tire.values.model()))}});
   page.add({"Correlations", "", {make_correlations(fit)}});
   page.add(make_document(document, "The fit as JSON"));
   return page;

@@ -13,6 +13,7 @@ import { kFindProblems } from './find_problems.mjs';
 const kWidths = [1400, 768, 420];
 const kPaper_px = 680; // of the page's own style: A4 without its margins
 const kLeastInk = 0.004; // of a printed page but the last: a heading alone has less
+const kLeastFilled = 0.4; // of its height: a figure that does not fit goes to the next page, but is no higher than the rest of one
 const args = process.argv.slice(2);
 const shots = args.includes('--screenshots') ? args[args.indexOf('--screenshots') + 1] : undefined;
 const pages = args.filter((arg, i) => arg.endsWith('.html') && args[i - 1] !== '--screenshots').map((page) => resolve(page));
@@ -49,22 +50,24 @@ async function save(page, name) {
 const media = (theme) => chromium.send('Emulation.setEmulatedMedia', { features: [{ name: 'prefers-color-scheme', value: theme }] });
 const resize = (width) => chromium.send('Emulation.setDeviceMetricsOverride', { width, height: 1000, deviceScaleFactor: 1, mobile: false });
 
-/// Share of ink of each printed page, by pdftoppm in gray.
+/// Share of ink of each printed page, and how far down it goes, by pdftoppm in gray.
 function measurePages(pdf) {
   const folder = mkdtempSync(join(tmpdir(), 'rollrig-paper-'));
   try {
     const file = join(folder, 'page.pdf');
     writeFileSync(file, pdf);
     const { stdout } = spawnSync('pdftoppm', ['-gray', '-r', '30', file], { maxBuffer: 1 << 28 });
-    const inks = [];
+    const sheets = [];
     for (let at = 0; at < stdout.length;) {
       const head = /^P5\s+(\d+)\s+(\d+)\s+255\s/.exec(stdout.subarray(at, at + 40).toString('latin1'));
       const size = Number(head[1]) * Number(head[2]);
       const pixels = stdout.subarray(at + head[0].length, at + head[0].length + size);
-      inks.push(pixels.reduce((dark, pixel) => dark + (pixel < 230 ? 1 : 0), 0) / size);
+      let last = 0;
+      const dark = pixels.reduce((sum, pixel, i) => (pixel < 230 ? ((last = i), sum + 1) : sum), 0);
+      sheets.push({ ink: dark / size, filled: last / size });
       at += head[0].length + size;
     }
-    return inks;
+    return sheets;
   } finally {
     rmSync(folder, { recursive: true });
   }
@@ -76,8 +79,10 @@ async function findPaperProblems(page) {
   const { data } = await chromium.send('Page.printToPDF', { printBackground: true, preferCSSPageSize: true });
   const pdf = Buffer.from(data, 'base64');
   if (shots) writeFileSync(join(shots, `${basename(page, '.html')}.pdf`), pdf);
-  const inks = measurePages(pdf);
-  const problems = inks.slice(0, -1).flatMap((ink, i) => (ink < kLeastInk ? [`printed page ${i + 1} of ${inks.length} is nearly empty: ${(100 * ink).toFixed(2)} % ink`] : []));
+  const sheets = measurePages(pdf);
+  const problems = sheets.slice(0, -1).flatMap(({ ink, filled }, i) => [
+    ink < kLeastInk && `printed page ${i + 1} of ${sheets.length} is nearly empty: ${(100 * ink).toFixed(2)} % ink`,
+    filled < kLeastFilled && `printed page ${i + 1} of ${sheets.length} ends at ${Math.round(100 * filled)} % of its height`].filter(Boolean));
   await resize(kPaper_px + 40);
   await chromium.send('Emulation.setEmulatedMedia', { media: 'print', features: [] });
   await chromium.evaluate(`(dispatchEvent(new Event('beforeprint')), 0)`);

@@ -175,14 +175,34 @@ const kNumbersOf = {
   curves: (b) => b.series.flatMap((s) => [s.x, s.y, s.low, s.high]),
   energy: (b) => b.ledgers.map((l) => l.terms.map((t) => t.in_J)),
   forest: (b) => b.rows.flatMap((row) => [row, row.prior].filter(Boolean).map(({ value, low, high }) => [value, low, high])),
-  times: (b) => [[...new Set(b.panels.flatMap((p) => p.series.flatMap((s) => s.t)))], ...b.panels.flatMap((p) => p.series.map((s) => s.y))],
+  times: (b) => [[...new Set(b.panels.flatMap((p) => p.series.flatMap((s) => s.t.filter((t) => !isHeld(s, t)))))], ...b.panels.flatMap((p) => p.series.map((s) => s.y.filter((_, i) => !isHeld(s, s.t[i]))))],
   waterfall: (b) => ['value', 'low', 'high'].map((key) => [b.start, ...b.steps, b.end].map((bar) => bar[key])),
 };
+/// Likewise of what is no chart; numbers that are texts count.
+const kNumbersOfOthers = {
+  cross_section: (b) => [b.t, ...b.nodes.map((node) => node.degC), b.generated_W, b.to_air_W, b.to_surface_W, b.stored_W, ...b.links.map((link) => link.W)],
+  map: (b) => b.rows.flatMap(({ group, label, cells }) => [group, label, ...cells.map((cell) => cell?.text)]).map(asNumber),
+  shares: (b) => b.rows.flatMap(({ label, share }) => [asNumber(label), share]),
+};
+const isHeld = (series, t) => Boolean(series.held?.includes(t)); // drawn, but no row
+const asNumber = (text) => (text === undefined || text === '' || Number.isNaN(Number(text)) ? text : Number(text));
 const kTextColumns = /^(balance|category|kind|name|series|step|term|unit|.*_note)$/;
 const sorted = (numbers) => numbers.flat().filter((n) => typeof n === 'number').sort((a, b) => a - b).join();
 
 /// The cells of a line of CSV.
 const splitCsv = (line) => [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map((m) => (m[1] !== undefined ? m[1].replaceAll('""', '"') : m[2]));
+
+/// What is no chart is saved as well: its numbers, and pictures that show something.
+async function checkSavedOther(block, index, folder) {
+  const csv = await saveChart(index, 0, folder);
+  const cells = csv.bytes.toString().trimEnd().split('\n').slice(1).flatMap(splitCsv).filter((cell) => cell !== '');
+  check(csv.name.endsWith('.csv') && sorted(cells.map(asNumber)) === sorted(kNumbersOfOthers[block.type](block)), `${csv.name} has the numbers of the ${block.type}`);
+  const svg = await saveChart(index, 1, folder);
+  const texts = [...svg.bytes.toString().matchAll(/<text[^>]*>/g)].length;
+  check(/^<svg[^>]+xmlns/.test(svg.bytes.toString()) && texts >= 3, `${svg.name} is a picture with ${texts} texts`);
+  const png = await saveChart(index, 2, folder);
+  check(png.name.endsWith('.png') && (await measureInk(png.bytes.toString('base64'))).ink > 0.005, `${png.name} is the picture`);
+}
 
 /// The menu of each of the first charts saves the numbers of its block, all digits of them, and its picture.
 async function checkSaving() {
@@ -190,11 +210,12 @@ async function checkSaving() {
   try {
     await chromium.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder, eventsEnabled: true });
     const payload = JSON.parse(await chromium.evaluate(`document.getElementById('payload').textContent`));
-    const blocks = payload.sections.flatMap((section) => section.blocks).filter((block) => kNumbersOf[block.type]);
+    const blocks = payload.sections.flatMap((section) => section.blocks).filter((block) => kNumbersOf[block.type] || kNumbersOfOthers[block.type]);
+    const charts = blocks.flatMap((block, i) => (kNumbersOf[block.type] ? [i] : []));
     const count = await chromium.evaluate(`document.querySelectorAll('.save').length`);
-    check(count === blocks.length && count === await chromium.evaluate(`document.querySelectorAll('.chart').length`), `${count} charts have a menu that saves them`);
+    check(count === blocks.length && charts.length === await chromium.evaluate(`document.querySelectorAll('.chart').length`), `${count} charts, maps, shares and drawings have a menu that saves them`);
     await chromium.evaluate(`(document.querySelectorAll('details.fold').forEach((fold) => (fold.open = true)), rollrig.drawAll(), 0)`);
-    for (let i = 0; i < Math.min(count, kSaved); ++i) {
+    for (const i of charts.slice(0, kSaved)) {
       const { name, bytes } = await saveChart(i, 0, folder);
       const [head, ...rows] = bytes.toString().trimEnd().split('\n').map(splitCsv);
       const columns = head.map((_, c) => c).filter((c) => !kTextColumns.test(head[c]));
@@ -203,9 +224,14 @@ async function checkSaving() {
       check(/^[^\s/]+\.csv$/.test(name) && isWhole && sorted(numbers) === sorted(kNumbersOf[blocks[i].type](blocks[i])),
         `chart ${i + 1}: ${name} has the ${numbers.flat().length} numbers of the page's data in ${head.join(', ').slice(0, 160)}`);
     }
-    const svg = await saveChart(0, 1, folder);
+    for (const type of Object.keys(kNumbersOfOthers)) {
+      const i = blocks.findIndex((block) => block.type === type);
+      if (i >= 0) await checkSavedOther(blocks[i], i, folder);
+    }
+    if (!charts.length) return;
+    const svg = await saveChart(charts[0], 1, folder);
     check(/^<svg[^>]+xmlns/.test(svg.bytes.toString()) && svg.name.endsWith('.svg') && svg.bytes.length > 2000, `${svg.name} is a picture of ${svg.bytes.length} bytes`);
-    const png = await saveChart(0, 2, folder);
+    const png = await saveChart(charts[0], 2, folder);
     const width = await chromium.evaluate(`document.querySelector('.chart').clientWidth`);
     const isWide = png.bytes.length > 100 && png.bytes.readUInt32BE(16) === 2 * width;
     check(png.name.endsWith('.png') && isWide && (await measureInk(png.bytes.toString('base64'))).ink > 0.005, `${png.name} is the picture at twice its width`);

@@ -9,10 +9,14 @@
 #include <cmath>
 #include <filesystem>
 #include <regex>
+#include <set>
 
 #include "build_paths.h"
+#include "models/effect.h"
+#include "scenarios/run/scenario.h"
 #include "sim/core/json.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;
@@ -100,13 +104,17 @@ void check_tiles(const Json& page, const Json& json) {
   }
 }
 
-/// Cells of a table, or values of lines, each with its row.
+/// Cells of a table, of a map or of shares, or values of lines, each with its row.
 std::vector<std::pair<std::string, std::string>> list_cells(const Json& block) {
   std::vector<std::pair<std::string, std::string>> cells;
   for (const Json& row : block.value("rows", Json::array())) {
     for (const Json& cell : block["type"] == "table" ? row : Json::array()) {
       if (cell.is_string()) cells.emplace_back(row.dump(), cell);
     }
+    for (const Json& cell : block["type"] == "map" ? row["cells"] : Json::array()) {
+      if (cell.is_object()) cells.emplace_back(row.dump(), cell["text"]);
+    }
+    if (block["type"] == "shares") cells.emplace_back(row.dump(), row["text"]);
   }
   for (const Json& line : block.value("lines", Json::array())) cells.emplace_back(line.dump(), line["value"]);
   for (auto& [row, cell] : cells) boost::algorithm::replace_all(cell, " - ", " -");  // a sign in an equation
@@ -150,6 +158,42 @@ void check_sources(const Json& page) {
   }
 }
 
+/// Texts that name something: titles, labels, headings, cells; not sentences, which may say what to write in a file.
+void list_names(const Json& json, std::vector<std::string>& names) {
+  static const std::set<std::string> kOther{"from",     "of",     "type",    "machine", "paragraphs",
+                                            "items",    "note",   "notes",   "ledgers", "links",
+                                            "subtitle", "legend", "command", "about",   "format"};
+  if (json.is_string()) names.push_back(json);
+  if (json.is_object() && (json.value("type", "") == "pre" || json.value("type", "") == "inputs")) return;
+  if (json.is_array()) {
+    for (const Json& each : json) list_names(each, names);
+  }
+  if (!json.is_object()) return;
+  for (const auto& [key, value] : json.items()) {
+    if (kOther.count(key) == 0) list_names(value, names);
+  }
+}
+
+/// No key of a file stands where a name is to stand: none with a unit, no id of an effect or of a scenario.
+void check_names(const Json& page) {
+  static const std::regex word("[A-Za-z0-9.]+(_[A-Za-z0-9.]+)+");
+  const std::vector<std::string> effects = models::effect_ids();
+  const std::vector<std::string> scenarios = scenarios::scenario_names();
+  std::vector<std::string> names;
+  list_names(page, names);
+  for (const std::string& name : names) {
+    INFO(name);
+    if (name.rfind("no column ", 0) == 0) continue;  // of the user's own file
+    for (auto at = std::sregex_iterator(name.begin(), name.end(), word); at != std::sregex_iterator(); ++at) {
+      const std::string key = at->str();
+      INFO(key);
+      CHECK(unit_of_key(key).symbol.empty());
+      CHECK(std::count(effects.begin(), effects.end(), key) == 0);
+      CHECK(std::count(scenarios.begin(), scenarios.end(), key) == 0);
+    }
+  }
+}
+
 void check_in_browser(const std::string& script, const std::string& arguments) {
   const std::string path = std::string(ROLLRIG_SOURCE_DIR) + "/tests/report/" + script;
   const ProgramResult checked = run_other(ROLLRIG_NODE, "'" + path + "' " + arguments);
@@ -172,6 +216,7 @@ void check_kinds(const TemporaryFolder& folder, const std::vector<PageKind>& kin
     check_tiles(page, json.contains("diagnosis") ? json["diagnosis"] : json);  // of a loop: its last diagnosis
     check_sources(page);
     check_tables(page, json);
+    check_names(page);
     if (!kind.checks.empty()) check_in_browser("check_page.mjs", fmt::format("'{}' {}", file, kind.checks));
     pages += " '" + file + "'";
   }
@@ -221,6 +266,7 @@ TEST_CASE("every kind of page of a run and of several runs", "[weekly]") {
        {"tires", "sweep iso_28580 --fidelity quasi_static --vary tire=a40,a50,a60"},
        {"bars", "sweep iso_28580 --fidelity quasi_static --vary tire=a40,a50 --vary pressure_kPa=230:270:20",
         "--charts 3"},
+       {"single", "sweep iso_28580 --vary pressure_kPa=250" + kQuick},
        {"regress", "regress runs", "--charts 1", 1},  // one of them has no golden
        {"sobol", "campaign sensitivity sobol_indices --result rrc_N_per_kN", "--charts 2"},
        {"morris", "campaign sensitivity morris --result rrc_N_per_kN"}});
@@ -232,12 +278,14 @@ TEST_CASE("every kind of page of a comparison and of a fit", "[weekly]") {
     prepare(folder, fmt::format("run iso_28580 --fidelity quasi_static --tire {0} --sensors source --uncertainty --out "
                                 "run_{0} --write-set set_{0}",
                                 tire));
+    prepare(folder, fmt::format("run sae_j1634 --fidelity quasi_static --tire {0} --out drive_{0}", tire));
   }
   write_effect_set(folder, "set", "");
   check_kinds(
       folder,
       {{"results", "compare run_a40 run_a50", "--charts 3"},  // bars, waterfall, channels
        {"sets", "compare set_a40 set_a50", "--charts 2"},
+       {"drives", "compare drive_a40 drive_a50"},
        {"numbers", "compare a40 a50 a60"},
        {"tire", "fit tire set", "--charts 3"},
        {"road_load", "fit road-load " + kExamples + "coastdown_bins.csv --mass 2203 --uncertainty", "--charts 2"},
@@ -259,8 +307,11 @@ TEST_CASE("every kind of page of a diagnosis and of a plan", "[weekly]") {
   fs::create_directory(folder.file("sets"));
   for (const char* copy : {"sets/one", "sets/two"}) fs::copy(folder.file("set"), folder.file(copy));
   const std::string only = " --only bearing_warmup,torque_gain";
+  prepare(folder, "campaign new-diagnoses night sets" + only);
+  prepare(folder, "campaign run night");
   check_kinds(folder, {{"diagnosis", "diagnose set" + only, "--charts 3"},
                        {"fleet", "diagnose sets" + only, "--charts 1"},
+                       {"summary", "campaign summary night"},
                        {"pair", "diagnose set --against set_B" + only},
                        {"loop", "diagnose set --loop tests --hours 8" + only},
                        {"plan", "plan --rig drum --hours 8" + only}});
@@ -272,6 +323,7 @@ TEST_CASE("pages of a run, a sweep, a comparison, a fit and a diagnosis", "[slow
   check_kinds(folder, {{"coastdown", "run coastdown --set pairs=2" + kQuick},
                        {"grid", "sweep iso_28580 --vary pressure_kPa=230:270:20 --vary ambient_degC=20:30:5" + kQuick},
                        {"numbers", "compare a40 a50"},
+                       {"single", "sweep iso_28580 --vary pressure_kPa=250" + kQuick},
                        {"j2452", "fit j2452 " + kExamples + "j2452_points.csv --maximum-load 6570 --base-pressure 240"},
                        {"diagnosis", "diagnose set --only bearing_warmup,torque_gain", "--charts 3"}});
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "report/blocks.h"
+#include "report/comparison_page.h"
 #include "report/diagnosis_page.h"
 
 using namespace rollrig;
@@ -17,6 +18,16 @@ TEST_CASE("the steps of a waterfall lead from its first value to its last", "[fa
   const double sum = block["start"]["value"].get<double>() + block["steps"][0]["value"].get<double>() +
                      block["steps"][1]["value"].get<double>();
   CHECK(sum == Approx(block["end"]["value"].get<double>()));
+}
+
+TEST_CASE("what rounding leaves is no step of a waterfall", "[fast]") {
+  const Json block =
+      report::make_waterfall({"Energy", "kJ"}, {"a", 1.0}, {{"load", 0.5}, {"rest", -9e-13}}, {"b", 1.5});
+  CHECK(block["steps"][1]["value"] == 0.0);
+  EnergyWaterfall waterfall{"b", "motor", 1000.0, {{"tire_loss", 500.0}, {"not closed", -9e-10}}, 1500.0};
+  const std::vector<EnergyStep> shown = report::list_shown_steps(waterfall);
+  REQUIRE(shown.size() == 1);
+  CHECK(shown[0].name == "tire loss");
 }
 
 TEST_CASE("a waterfall whose steps lead elsewhere is refused", "[fast]") {

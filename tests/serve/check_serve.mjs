@@ -101,6 +101,11 @@ async function checkDrop() {
   await page.click('#diagnose');
   await page.until("document.querySelector('progress')");
   check(true, 'the diagnosis shows its progress');
+  await page.evaluate('(window.isOld = true)');
+  await page.chromium.send('Page.reload');
+  await page.until("!window.isOld && document.documentElement?.dataset.ready === 'yes'");
+  const again = await page.evaluate("document.querySelector('#view-sets:not([hidden]) .job:has(progress, .kept a)')?.textContent ?? ''");
+  check(/^Diagnosis of my logs/.test(again), `after a reload the diagnosis is there again: ${again}`);
   await page.until("document.querySelector('.setbench .kept a')", 120000);
   const { href } = await page.evaluate("({ href: document.querySelector('.setbench .kept a').href })");
   check(readdirSync(join(folder, 'kept')).length === 1, 'the page is kept');

@@ -60,7 +60,7 @@ export function axisStyle() {
 export const axisTitle = (text, legend) => ({ text, left: 0, top: typeof legend === 'number' ? legend + 2 : legend ? 26 : 2, padding: 0, textStyle: { fontSize: 12, fontWeight: 400, color: color('soft') } });
 
 const kIcon_px = 26;
-const kGap_px = 12;
+const kGap_px = 8;
 const kLegendLine_px = 16;
 let ruler;
 
@@ -157,6 +157,12 @@ export class Chart {
     if (this.afterDraw) this.afterDraw(this);
   }
 
+  /// The chart as it is drawn now; it is drawn first where it has not been in sight.
+  picture() {
+    this.draw();
+    return { svg: this.element.querySelector('svg'), width: this.instance.getWidth(), height: this.instance.getHeight() };
+  }
+
   /// Range shown, where the chart can be zoomed.
   zoom() {
     const option = this.instance && this.instance.getOption();
@@ -225,7 +231,8 @@ export function legendsAndPlots({ instance, element }) {
 
 /// What stands below a chart: the numbers as a table that opens, and the menu that saves it.
 export const chartFoot = (chart, table) => h('div', { class: 'chartfoot' },
-  table && h('details', { class: 'numbers' }, h('summary', null, 'Numbers of this chart as a table'), table), saveMenu(chart));
+  table && h('details', { class: 'numbers' }, h('summary', null, 'Numbers of this chart as a table'), table),
+  saveMenu({ title: chart.title, data: () => chart.data(), picture: () => chart.picture() }));
 
 /// A figure: chart, caption, and what stands below it.
 export function figure({ chart, caption, table, before }) {

@@ -1,4 +1,5 @@
-// Saves a chart: its data as CSV, its picture as SVG or PNG. Nothing leaves the page but files that the reader asks for.
+// Saves a chart, a table of shades or a drawing: its data as CSV, its picture as SVG or PNG. Nothing leaves the page but
+// files that the reader asks for.
 import { h, svg } from './dom.js';
 import { color } from './theme.js';
 
@@ -16,8 +17,19 @@ function unitSuffix(unit) {
 /// "speed_km_h": the quantity and its unit.
 export const columnName = (quantity, unit) => [slug(quantity) || 'value', unitSuffix(unit)].filter(Boolean).join('_');
 
-/// A column of a CSV file: {name, values}.
+/// A column of a CSV file: {name, values}. With columnOf(), of a heading such as "drum torque, N m".
 export const column = (quantity, unit, values) => ({ name: columnName(quantity, unit), values });
+
+export function columnOf(heading, values) {
+  const at = heading.lastIndexOf(', ');
+  return at < 0 ? column(heading, '', values) : column(heading.slice(0, at), heading.slice(at + 2), values);
+}
+
+/// The number that a text shows, else the text.
+export function numberOrText(text) {
+  const number = Number(String(text).trim().replace('\u2212', '-'));
+  return String(text).trim() === '' || Number.isNaN(number) ? text : number;
+}
 
 function showCell(value) {
   if (value === null || value === undefined) return '';
@@ -35,16 +47,17 @@ function makeCsv(columns) {
   return [names.map(showCell).join(','), ...rows, ''].join('\n');
 }
 
-/// Control characters that XML cannot hold; names of folders may.
-const kNotInXml = /[\u0000-\u0008\u000b\u000c\u000e-\u001f]/g;
+/// Characters that XML cannot hold; names of folders may.
+const kNotInXml = /[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]|\p{Surrogate}/gu;
 
-/// The chart as it is drawn now, on the color of the page.
-function makeSvg(chart) {
-  const root = chart.element.querySelector('svg').cloneNode(true);
+/// The picture as it is drawn now, on the color of the page.
+function makeSvg({ title, picture }) {
+  const { svg: drawn, width, height } = picture();
+  const root = drawn.cloneNode(true);
   root.removeAttribute('style');
-  root.prepend(svg('title', null, chart.title), svg('rect', { width: '100%', height: '100%', fill: color('paper') }));
-  const text = new XMLSerializer().serializeToString(root).replace(kNotInXml, '');
-  return { text, width: chart.instance.getWidth(), height: chart.instance.getHeight() };
+  const [x, y] = (root.getAttribute('viewBox') || '0 0').split(' ');
+  root.prepend(svg('title', null, title), svg('rect', { x, y, width: '100%', height: '100%', fill: color('paper') }));
+  return { text: new XMLSerializer().serializeToString(root).replace(kNotInXml, ''), width, height };
 }
 
 async function makePng({ text, width, height }) {
@@ -73,22 +86,22 @@ function download(blob, name) {
 }
 
 const kWays = [
-  { label: 'Data as CSV', ending: 'csv', make: async (chart) => new Blob([makeCsv(chart.data())], { type: 'text/csv' }) },
-  { label: 'Picture as SVG', ending: 'svg', make: async (chart) => new Blob([makeSvg(chart).text], { type: 'image/svg+xml' }) },
-  { label: 'Picture as PNG', ending: 'png', make: async (chart) => makePng(makeSvg(chart)) },
+  { label: 'Data as CSV', ending: 'csv', make: async (saved) => new Blob([makeCsv(saved.data())], { type: 'text/csv' }) },
+  { label: 'Picture as SVG', ending: 'svg', make: async (saved) => new Blob([makeSvg(saved).text], { type: 'image/svg+xml' }) },
+  { label: 'Picture as PNG', ending: 'png', make: async (saved) => makePng(makeSvg(saved)) },
 ];
 
 document.addEventListener('pointerdown', (event) => document.querySelectorAll('details.save[open]').forEach((menu) => menu.contains(event.target) || (menu.open = false)));
 
-/// The menu of a chart. It closes when it has done its work, by Escape, and when something else is chosen.
-export function saveMenu(chart) {
+/// The menu of what can be saved: {title, data(): columns of its CSV, picture(): {svg, width, height}}. It closes when it has
+/// done its work, by Escape, and when something else is chosen.
+export function saveMenu(saved) {
   const buttons = kWays.map(({ label, ending, make }) => h('button', { type: 'button', onclick: async () => {
     menu.open = false;
     menu.firstChild.focus();
-    chart.draw(); // where it has not been in sight
-    download(await make(chart), `${slug(chart.title) || 'chart'}.${ending}`);
+    download(await make(saved), `${slug(saved.title) || 'chart'}.${ending}`);
   } }, label));
-  const menu = h('details', { class: 'save' }, h('summary', { 'aria-label': `Save: ${chart.title}` }, 'Save'), h('div', null, buttons));
+  const menu = h('details', { class: 'save' }, h('summary', { 'aria-label': `Save: ${saved.title}` }, 'Save'), h('div', null, buttons));
   menu.addEventListener('keydown', (event) => {
     if (event.key !== 'Escape' || !menu.open) return;
     menu.open = false;

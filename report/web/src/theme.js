@@ -34,9 +34,15 @@ export function seriesStyle(i) {
 /// Whether the page is being laid out for print.
 export const isOnPaper = () => onPaper;
 
+const paperListeners = [];
+
+/// Calls a listener with whether the page is laid out for print, when that changes and before it is drawn.
+export const onPaperChange = (listener) => paperListeners.push(listener);
+
 export function setOnPaper(value) {
   onPaper = value;
   apply();
+  paperListeners.forEach((listener) => listener(value));
 }
 
 export function startTheme() {

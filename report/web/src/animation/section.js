@@ -7,6 +7,8 @@
 import { rowAt, valueAt } from '../clock.js';
 import { h, set, svg } from '../dom.js';
 import { clockTime, fixed } from '../format.js';
+import { drawSvg } from '../picture.js';
+import { column, saveMenu } from '../save.js';
 import { heatColor } from './parts.js';
 
 const kView = { width: 620, height: 372 };
@@ -94,6 +96,11 @@ function placeLinks(outlines, hasTread) {
   };
 }
 
+/// A row for each end of a stretch; the flows of a row are means over the stretch that begins there.
+const makeSectionData = (block, links) => [column('time', 's', block.t), ...block.nodes.map(({ name, degC }) => column(name, '\u00b0C', degC)),
+  column('loss', 'W', block.generated_W), column('to air', 'W', block.to_air_W), column(`to ${block.surface}`, 'W', block.to_surface_W), column('stored', 'W', block.stored_W),
+  ...links.map(({ name, W }) => column(name, 'W', W))];
+
 export function crossSectionBlock(block, { clock }) {
   const height_m = block.radius_m - block.rim_radius_m;
   const scale = Math.min(kTallest / height_m, kWidestTire / block.width_m); // px a meter
@@ -117,13 +124,14 @@ export function crossSectionBlock(block, { clock }) {
     { values: block.to_air_W, drawn: makeFlow({ label: 'to air', from: [right - 18, outlines.y(0.5)], to: [right + 78, outlines.y(0.4)], at: [right + 14, outlines.y(0.2)], anchor: 'start' }) },
     { values: block.to_surface_W, drawn: makeFlow({ label: `to ${block.surface}`, from: [kMiddle, outlines.y(0.965)], to: [kMiddle, kContact + 56], at: [kMiddle + 34, kContact + 34], anchor: 'start' }) },
   ];
+  const links = block.links.map(({ from, to, W }) => ({ name: `${nodes[from]?.name ?? from} to ${nodes[to]?.name ?? to}`, W }));
   const places = placeLinks(outlines, Boolean(nodes.tread));
   const further = [];
-  for (const link of block.links) {
+  block.links.forEach((link, i) => {
     const place = places[`${link.from} ${link.to}`];
     if (place) flows.push({ values: link.W, drawn: makeFlow(place) });
-    else further.push({ name: `${nodes[link.from]?.name ?? link.from} to ${nodes[link.to]?.name ?? link.to}`, values: link.W });
-  }
+    else further.push({ name: links[i].name, values: link.W });
+  });
   const picture = svg('svg', { viewBox: `0 ${top} ${kView.width} ${kView.height - top}`, class: 'crosssection', role: 'img', 'aria-label': block.label },
     svg('clipPath', { id: 'treadarea' }, svg('rect', outlines.tread)), makeSurface(block.surface, w),
     parts.liner[0], parts.tread, svg('path', { d: outlines.belt, class: 'belt' }), makeGrooves(outlines), parts.gas, parts.liner[1], parts.rim,
@@ -151,8 +159,9 @@ export function crossSectionBlock(block, { clock }) {
     stored.value.textContent = fixed(block.stored_W[stretch], 0);
     caption.textContent = `Flows from ${clockTime(block.t[stretch])} to ${clockTime(block.t[stretch + 1])}`;
   });
+  const saved = { title: block.title, data: () => makeSectionData(block, links), picture: () => drawSvg(picture) };
   return h('figure', { class: 'heat' }, h('h3', null, block.title),
     h('div', { class: 'stage' }, picture,
       h('table', { class: 'lines heatvalues' }, caption, h('tbody', null, temperatures.map((r) => r.element), stored.element, others.map((r) => r.element)))),
-    h('figcaption', null, block.caption));
+    h('figcaption', null, block.caption), h('div', { class: 'chartfoot' }, saveMenu(saved)));
 }

@@ -12,7 +12,8 @@ const withIndices = (text) => text.split(/\b([A-Za-z]+_[A-Za-z0-9]+)\b/).map((pa
   return [h('i', null, name), h('sub', null, index)];
 });
 
-export function equationsBlock({ of }) {
-  return h('div', { class: 'equations' }, (equations[of] || []).map(({ mathml, text }) => [
-    h('div', { class: 'equation' }, formula(mathml)), h('p', null, withIndices(text))]));
-}
+/// Equations by their name; nothing where there are none of this name.
+export const typesetEquations = (of) => (equations[of] || []).map(({ mathml, text }) => [
+  h('div', { class: 'equation' }, formula(mathml)), text && h('p', null, withIndices(text))]);
+
+export const equationsBlock = ({ of }) => h('div', { class: 'equations' }, typesetEquations(of));

@@ -4,10 +4,10 @@ import { axisStyle, axisTitle, baseOption, Chart, figure, makeLegend, tipLine } 
 import { h } from '../dom.js';
 import { number } from '../format.js';
 import { column } from '../save.js';
-import { seriesStyle } from '../theme.js';
+import { isOnPaper, seriesStyle } from '../theme.js';
 import { makeTable } from './table.js';
 
-const kRow_px = 36;
+const rowHeight = () => (isOnPaper() ? 22 : 36);
 const kFoot_px = 44;
 const kTitle_px = 30;
 
@@ -76,7 +76,7 @@ function makeData({ rows, names }) {
 
 export function forestBlock(block) {
   const chart = new Chart({
-    height: (width) => legendOf(block, width).height + kTitle_px + kRow_px * block.rows.length + kFoot_px,
+    height: (width) => legendOf(block, width).height + kTitle_px + rowHeight() * block.rows.length + kFoot_px,
     label: `${block.label}: ${block.rows.map((row) => `${row.name} ${withUnit(row, row.value)}`).join(', ')}. The table below has the numbers.`,
     title: block.label, data: () => makeData(block),
     makeOption: (width) => makeOption(block, width),

@@ -1,6 +1,7 @@
 // Words: a lead sentence with a verdict, paragraphs, warnings, files as they are.
 import { h } from '../dom.js';
 import { typeset } from '../format.js';
+import { typesetEquations } from './equations.js';
 
 /// {tone: good | doubt | bad, text, more}
 export function leadBlock({ tone, text, more }) {
@@ -20,11 +21,11 @@ export function warningsBlock({ items }) {
   return h('ul', { class: 'warnings' }, items.map((text) => h('li', null, h('strong', null, 'Warning '), text)));
 }
 
-/// Terms and what they mean: {title, items: [{term, texts: [...], code}]}
+/// Terms and what they mean: {title, items: [{term, texts: [...], code, of}]}; with `of`, equations of this name instead.
 export function definitionsBlock({ title, items }) {
   return h('div', { class: 'definitions' }, title && h('h3', null, title),
-    h('dl', null, items.map(({ term, texts, code }) => [
-      h('dt', null, term), ...texts.map((text) => h('dd', null, code ? h('code', null, text) : text))])));
+    h('dl', null, items.map(({ term, texts = [], code, of }) => [
+      h('dt', null, term), of && h('dd', { class: 'equations' }, typesetEquations(of)), ...texts.map((text) => h('dd', null, code ? h('code', null, text) : text))])));
 }
 
 /// {caption, text}

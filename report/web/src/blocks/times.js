@@ -1,14 +1,15 @@
 // Channels over time: panels one above the other on one axis, phases shaded, a cursor at the page's time.
 //
 // {title, view: [from_s, to_s], phases: [{name, start_s, end_s}],
-//  rows: [[start_s, step_s, number], ...], panels: [{label, unit, scale: [from, to], series: [{name, t, y, points, recorded, phases}]}]}
+//  rows: [[start_s, step_s, number], ...], panels: [{label, unit, scale: [from, to], series: [{name, t, y, points, held, recorded, phases}]}]}
+// held: times of points that are drawn, but are no rows.
 // Of a recording the values in numbers are those of its rows (rows, recorded, phases), not of the lines.
-import { axisStyle, baseOption, Chart, chartFoot, graphic, makeLegend, tipLine } from '../chart.js';
+import { axisStyle, baseOption, Chart, chartFoot, forgetChartsIn, graphic, makeLegend, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { recordedAt, rowAt, rowTimes, valueAt } from '../clock.js';
 import { clockTime, number, timeUnit } from '../format.js';
 import { column } from '../save.js';
-import { color, isOnPaper, seriesStyle } from '../theme.js';
+import { color, isOnPaper, onPaperChange, seriesStyle } from '../theme.js';
 import { makePhaseTable } from './phase_table.js';
 
 const kLeft = 62;
@@ -31,15 +32,18 @@ function legendOf(panel, width) {
 const namesOf = (panel) => panel.series.map((series) => series.name).join('|');
 const hasLegend = (panels, i) => !isOnPaper() || i === 0 || namesOf(panels[i]) !== namesOf(panels[i - 1]);
 
-/// Where the panels lie: [{top, height, legend}], one below the other, each with its title and its legend above it. On paper all
-/// of them are to fit on a page.
+/// Where the panels lie: [{top, height, legend}], one below the other, each with its title and its legend above it.
 const kPanel_px = 108;
-const kPaper_px = 860;
 const kFewLabels_px = 70; // height below which an axis has room for two numbers
-function placePanels(panels, width) {
-  const heads = panels.map((panel, i) => 12 + kTitle_px + (hasLegend(panels, i) ? legendOf(panel, width).height : 0));
-  const all = heads.reduce((sum, head) => sum + head, 0);
-  const height = isOnPaper() ? Math.max(40, Math.min(100, (kPaper_px - all) / panels.length)) : kPanel_px;
+const headsOf = (panels, width) => panels.map((panel, i) => 12 + kTitle_px + (hasLegend(panels, i) ? legendOf(panel, width).height : 0));
+
+/// Height of a panel on paper, where many are less high.
+const kPaper_px = 860;
+const paperHeight = (panels, width) => Math.max(46, Math.min(100, (kPaper_px - headsOf(panels, width).reduce((sum, head) => sum + head, 0)) / panels.length));
+
+function placePanels({ panels, panel_px = kPanel_px }, width) {
+  const heads = headsOf(panels, width);
+  const height = panel_px;
   let top = kStrip + 8;
   return panels.map((panel, i) => {
     const place = { top: top + heads[i], height, title: top + 12, legend: top + 12 + kTitle_px - 2 };
@@ -47,10 +51,28 @@ function placePanels(panels, width) {
     return place;
   });
 }
-const panelsBottom = (panels, width) => {
-  const last = placePanels(panels, width).at(-1);
+const panelsBottom = (block, width) => {
+  const last = placePanels(block, width).at(-1);
   return last.top + last.height;
 };
+
+/// On paper a chart cannot go on behind the end of a sheet: panels in charts of their own, none of which is high.
+const kPaperWidth_px = 680; // of style.css
+const kPart_px = 380;
+function divideForPaper(block) {
+  const panel_px = paperHeight(block.panels, kPaperWidth_px);
+  const parts = [];
+  let used = Infinity;
+  headsOf(block.panels, kPaperWidth_px).forEach((head, i) => {
+    if (used + head + panel_px > kPart_px) {
+      parts.push([]);
+      used = 0;
+    }
+    parts.at(-1).push(block.panels[i]);
+    used += head + panel_px;
+  });
+  return parts.map((panels) => ({ ...block, panel_px, panels }));
+}
 
 /// Limits of an axis that do not blow up what hardly changes. `scale`: what the loaded phases reach; lines may leave the panel
 /// beyond.
@@ -172,7 +194,7 @@ function makeOption(block, span, unit, width, hovered) {
   const titles = [];
   const legends = [];
   const series = [phaseStrip(block.phases || [], unit)];
-  const places = placePanels(block.panels, width);
+  const places = placePanels(block, width);
   block.panels.forEach((panel, i) => {
     const last = i === block.panels.length - 1;
     const { top, height, title, legend } = places[i];
@@ -209,15 +231,31 @@ function makeOption(block, span, unit, width, hovered) {
   };
 }
 
+function placeCursor(chart, cursor, clock, unit, block) {
+  cursor.style.height = `${panelsBottom(block, chart.width)}px`;
+  const x = chart.instance.convertToPixel({ xAxisIndex: 1 }, clock.now_s / unit.seconds);
+  const inside = x >= kLeft - 1 && x <= chart.width - kRight + 1;
+  cursor.style.display = inside ? '' : 'none';
+  cursor.style.transform = `translateX(${x}px)`;
+}
+
+const makeCursor = () => h('div', { class: 'cursor', 'aria-hidden': 'true' });
+
+/// The charts of a block for paper, in an element of their own.
+function makePaperCharts(block, span, unit, clock) {
+  return divideForPaper(block).map((part) => {
+    const chart = new Chart({ height: (width) => panelsBottom(part, width) + 40, label: '', title: '', data: () => [], makeOption: (width) => makeOption(part, span, unit, width, () => 0) });
+    const cursor = clock && !block.unlinked && makeCursor();
+    if (cursor) chart.afterDraw = () => placeCursor(chart, cursor, clock, unit, part);
+    return h('div', { class: 'times part' }, chart.element, cursor);
+  });
+}
+
 /// The cursor at the page's time, over all panels; dragging on the chart moves the time.
-function tieToClock(chart, cursor, clock, unit, panels, afterDraw) {
+function tieToClock(chart, cursor, clock, unit, block, afterDraw) {
   const place = () => {
     if (!chart.instance) return;
-    cursor.style.height = `${panelsBottom(panels, chart.width)}px`;
-    const x = chart.instance.convertToPixel({ xAxisIndex: 1 }, clock.now_s / unit.seconds);
-    const inside = x >= kLeft - 1 && x <= chart.width - kRight + 1;
-    cursor.style.display = inside ? '' : 'none';
-    cursor.style.transform = `translateX(${x}px)`;
+    placeCursor(chart, cursor, clock, unit, block);
   };
   clock.onChange(place);
   chart.afterDraw = () => {
@@ -227,7 +265,7 @@ function tieToClock(chart, cursor, clock, unit, panels, afterDraw) {
     chart.isTied = true;
     chart.instance.on('datazoom', place);
     chart.instance.getZr().on('click', (event) => {
-      if (event.offsetX < kLeft || event.offsetY > panelsBottom(panels, chart.width)) return;
+      if (event.offsetX < kLeft || event.offsetY > panelsBottom(block, chart.width)) return;
       clock.set(chart.instance.convertFromPixel({ xAxisIndex: 1 }, event.offsetX) * unit.seconds);
     });
   };
@@ -236,10 +274,10 @@ function tieToClock(chart, cursor, clock, unit, panels, afterDraw) {
 /// A row for each time at which a series has a point, and a column for each series. The series of a recording have the
 /// names of its channels; others have the name of their panel before their own where that does not say it.
 function makeData(block) {
-  const all = block.panels.flatMap((panel) => panel.series.map((series) => ({ panel, series, values: new Map(series.t.map((t, i) => [t, series.y[i]])) })));
+  const all = block.panels.flatMap((panel) => panel.series.map((series) => ({ panel, series, values: new Map(series.t.map((t, i) => [t, series.y[i]]).filter(([t]) => !series.held?.includes(t))) })));
   const isOwnName = Boolean(block.rows) && new Set(all.map(({ series }) => series.name)).size === all.length;
   const name = (panel, series) => (isOwnName || series.name.toLowerCase().includes(panel.label.toLowerCase()) ? series.name : `${panel.label} ${series.name}`);
-  const times_s = [...new Set(all.flatMap(({ series }) => series.t))].sort((a, b) => a - b);
+  const times_s = [...new Set(all.flatMap(({ values }) => [...values.keys()]))].sort((a, b) => a - b);
   return [column('time', 's', times_s), ...all.map(({ panel, series, values }) =>
     column(name(panel, series), panel.unit, times_s.map((t) => values.get(t) ?? null)))];
 }
@@ -250,11 +288,11 @@ export function timesBlock(block, { clock }) {
   const names = block.panels.map((panel) => panel.label.toLowerCase()).join(', ');
   let pointer_px = 0;
   const hovered = () => {
-    const below = placePanels(block.panels, chart.width).findIndex(({ top, height }) => pointer_px < top + height);
+    const below = placePanels(block, chart.width).findIndex(({ top, height }) => pointer_px < top + height);
     return below < 0 ? block.panels.length - 1 : below;
   };
   const chart = new Chart({
-    height: (width) => panelsBottom(block.panels, width) + (isOnPaper() ? 40 : kFoot),
+    height: (width) => panelsBottom(block, width) + kFoot,
     label: `Line charts over time from ${clockTime(span[0])} to ${clockTime(span[1])}: ${names}. The table below has mean and extremes of each phase.`,
     title: block.title || 'Over time', data: () => makeData(block),
     makeOption: (width) => makeOption(block, span, unit, width, hovered),
@@ -266,10 +304,18 @@ export function timesBlock(block, { clock }) {
   };
   chart.afterDraw = followPointer;
   const holder = h('div', { class: 'times' }, chart.element);
+  const onPaper = h('div');
+  onPaperChange((isPaper) => {
+    holder.hidden = isPaper;
+    forgetChartsIn(onPaper);
+    const zoom = chart.zoom();
+    const view = zoom ? zoom.map((at) => at * unit.seconds) : block.view;
+    onPaper.replaceChildren(...(isPaper && holder.isConnected ? makePaperCharts({ ...block, view }, span, unit, clock) : []));
+  });
   if (clock && !block.unlinked) {
-    const cursor = h('div', { class: 'cursor', 'aria-hidden': 'true' });
+    const cursor = makeCursor();
     holder.append(cursor);
-    tieToClock(chart, cursor, clock, unit, block.panels, followPointer);
+    tieToClock(chart, cursor, clock, unit, block, followPointer);
   }
   const zoom = (range) => chart.instance && chart.instance.dispatchAction({ type: 'dataZoom', startValue: range[0] / unit.seconds, endValue: range[1] / unit.seconds });
   const choice = h('div', { class: 'zoom' },
@@ -277,6 +323,6 @@ export function timesBlock(block, { clock }) {
       block.view && h('option', { value: JSON.stringify(block.view), selected: true }, 'from the start of rolling'),
       h('option', { value: JSON.stringify(span) }, 'the whole time'),
       (block.phases || []).map((p) => h('option', { value: JSON.stringify([p.start_s, p.end_s]) }, p.name)))));
-  return h('figure', null, h('div', { class: 'charthead' }, h('h3', null, block.title || ''), choice), holder, block.caption && h('figcaption', null, block.caption),
+  return h('figure', { class: 'timesfigure' }, h('div', { class: 'charthead' }, h('h3', null, block.title || ''), choice), holder, onPaper, block.caption && h('figcaption', null, block.caption),
     chartFoot(chart, makePhaseTable(block, span)));
 }

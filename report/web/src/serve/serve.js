@@ -9,16 +9,19 @@ import { latencies, Live } from './live.js';
 import { makeProblem } from './problem.js';
 import { Sets } from './sets.js';
 
+const kShownKey = 'rollrig-view'; // of a page that is loaded again
 const kViews = [['try', 'Try a test'], ['sets', 'Diagnose a folder']];
 
 function makeViews(views) {
   const tabs = kViews.map(([id, name]) => h('button', { type: 'button', role: 'tab', id: `tab-${id}`, 'aria-controls': `view-${id}`, class: 'tab', onclick: () => show(id) }, name));
   const panels = kViews.map(([id]) => h('div', { id: `view-${id}`, role: 'tabpanel', 'aria-labelledby': `tab-${id}` }, views[id].element));
-  const show = (shown) => kViews.forEach(([id], i) => {
-    tabs[i].setAttribute('aria-selected', String(id === shown));
-    panels[i].hidden = id !== shown;
-  });
-  show('try');
+  const show = (shown) => {
+    sessionStorage.setItem(kShownKey, shown);
+    kViews.forEach(([id], i) => {
+      tabs[i].setAttribute('aria-selected', String(id === shown));
+      panels[i].hidden = id !== shown;
+    });
+  };
   return { tabs: h('div', { role: 'tablist', 'aria-label': 'What to do', class: 'tabs' }, tabs), panels, show };
 }
 
@@ -36,6 +39,9 @@ async function start() {
       show('sets');
       views.sets.take(dropped);
     });
+    const before = sessionStorage.getItem(kShownKey);
+    show(before === 'sets' ? 'sets' : 'try');
+    if (await views.sets.resume()) show('sets');
     addEventListener('beforeprint', drawAll);
   } catch (error) {
     page.replaceChildren(makeProblem(error.problem || { what: error.message }));

@@ -26,7 +26,36 @@ export class Sets {
     this.zone = h('div', { class: 'dropzone' }, h('p', null, 'Drop a folder of CSV files here, or anywhere on this page.'),
       h('p', { class: 'note' }, 'One log for each run, or a measurement set with its set.toml. Tire and rig files (.toml) may lie beside them. Files go to rollrig on this computer and nowhere else.'),
       h('label', { for: 'folder', class: 'tool' }, 'Choose a folder'), chooser);
-    this.element = h('div', { class: 'setbench' }, this.zone, this.steps, this.results.element);
+    this.jobs = h('div', { class: 'jobs' });
+    this.element = h('div', { class: 'setbench' }, this.zone, this.steps, this.jobs, this.results.element);
+  }
+
+  /// Shows the jobs that the server has, such as those from before the page was loaded again: those that run or wait with
+  /// their progress, those that are done with a link to their page, the result of the last one too. Returns whether one
+  /// runs or waits.
+  async resume() {
+    const { jobs } = await get('/api/jobs');
+    const open = jobs.filter(({ state }) => state === 'running' || state === 'waiting');
+    for (const { job, name, kept } of jobs) {
+      if (kept) this.#addJob(job).replaceChildren(this.#makeKept(name, kept));
+    }
+    const last = jobs.at(-1);
+    if (last?.kept) this.results.show((await get(`/api/jobs/${last.job}`)).result.page);
+    for (const { job, name } of open) this.#follow(job, name).catch((error) => this.#fail(error, this.#addJob(job)));
+    return open.length > 0;
+  }
+
+  /// Where a job is shown, the newest first.
+  #addJob(job) {
+    const known = this.jobs.querySelector(`[data-job="${job}"]`);
+    if (known) return known;
+    const holder = h('div', { class: 'job', 'data-job': job });
+    this.jobs.prepend(holder);
+    return holder;
+  }
+
+  #makeKept(name, kept) {
+    return h('p', { class: 'kept' }, `Diagnosis of ${name}, kept: `, h('a', { href: keptAddress(kept), target: '_blank', rel: 'noopener' }, kept), ` in ${this.choices.keep_folder}/`);
   }
 
   #step(title, ...content) {
@@ -53,7 +82,8 @@ export class Sets {
       if (size > limits.set_bytes || wanted.length > limits.files) throw new ProblemError({ what: `at most ${limits.files} files of ${bytesText(limits.set_bytes)} in all are taken` });
       const large = wanted.find((one) => one.file.size > limits.file_bytes);
       if (large) throw new ProblemError({ what: `a file of more than ${bytesText(limits.file_bytes)} is not taken`, file: large.name });
-      this.id = (await post('/api/sets', { name })).set;
+      const opened = await post('/api/sets', { name });
+      [this.id, this.name] = [opened.set, opened.name];
       for (const [i, one] of wanted.entries()) {
         this.state.textContent = `${i + 1} of ${wanted.length}: ${one.name}`;
         await upload(`/api/sets/${this.id}/files?name=${encodeURIComponent(one.name)}`, one.file);
@@ -126,39 +156,42 @@ export class Sets {
 
   #showChecked({ what, warnings, is_good: isGood }) {
     this.run = h('button', { type: 'button', class: 'tool main', id: 'diagnose', onclick: () => this.#diagnose() }, 'Diagnose');
-    this.progress = h('div');
+    this.problem = h('div');
     this.only = this.choices.effects.map(({ id, label }) => ({ id, box: h('input', { type: 'checkbox', id: `only-${id}` }), label }));
     const only = h('details', { class: 'group' }, h('summary', null, 'Compare only some effects'), h('p', { class: 'note' }, 'Without a choice all effects are compared, as they should be unless you know better.'),
       h('div', { class: 'only' }, this.only.map(({ box, label }) => h('label', null, box, ' ', capitalized(label)))));
     this.checked.replaceChildren(h('div', { class: `lead ${isGood ? (warnings.length ? 'doubt' : 'good') : 'bad'}` }, h('div', null, h('p', null, `Validated: ${what}`))),
-      h('ul', { class: 'warnings' }, warnings.map((warning) => h('li', null, h('strong', null, 'warning: '), warning))), only, this.run, this.progress);
+      h('ul', { class: 'warnings' }, warnings.map((warning) => h('li', null, h('strong', null, 'warning: '), warning))), only, this.run, this.problem);
     this.checked.scrollIntoView({ block: 'nearest' });
   }
 
   async #diagnose() {
-    this.run.disabled = true;
+    const { run, problem } = this;
+    run.disabled = true;
+    problem.replaceChildren();
     this.results.clear();
     try {
       const { job } = await post(`/api/sets/${this.id}/diagnose`, { only: Object.fromEntries(this.only.filter(({ box }) => box.checked).map(({ id }) => [id, true])) });
-      await this.#follow(job);
+      await this.#follow(job, this.name);
     } catch (error) {
-      this.#fail(error, this.progress);
+      this.#fail(error, problem);
     }
-    this.run.disabled = false;
+    run.disabled = false;
   }
 
-  async #follow(job) {
-    const bar = h('progress', { max: 1, 'aria-label': 'Progress of the diagnosis' });
+  async #follow(job, name) {
+    const holder = this.#addJob(job);
+    const bar = h('progress', { max: 1, 'aria-label': `Progress of the diagnosis of ${name}` });
     const text = h('span', { role: 'status' });
     const cancel = h('button', { type: 'button', class: 'tool', id: 'cancel', onclick: () => post(`/api/jobs/${job}/cancel`) }, 'Cancel');
-    this.progress.replaceChildren(h('div', { class: 'progress' }, bar, text, cancel));
+    holder.replaceChildren(h('div', { class: 'progress' }, h('span', null, `Diagnosis of ${name}`), bar, text, cancel));
     let start_ms = performance.now();
     let last = 0;
     for (;;) {
       const now = await get(`/api/jobs/${job}`);
-      if (now.state === 'done') return this.#showDiagnosis(now.result);
-      if (now.state === 'failed') return this.progress.replaceChildren(makeProblem(now.error));
-      if (now.state === 'canceled') return this.progress.replaceChildren(h('p', null, 'Canceled. Nothing was kept.'));
+      if (now.state === 'done') return this.#showDiagnosis(holder, name, now.result);
+      if (now.state === 'failed') return holder.replaceChildren(h('p', null, `Diagnosis of ${name}:`), makeProblem(now.error));
+      if (now.state === 'canceled') return holder.replaceChildren(h('p', null, `Diagnosis of ${name}: canceled. Nothing was kept.`));
       if (!(now.done >= last)) start_ms = performance.now(); // more work has turned out to follow
       last = now.done ?? 0;
       const elapsed_s = (performance.now() - start_ms) / 1000;
@@ -169,8 +202,8 @@ export class Sets {
     }
   }
 
-  #showDiagnosis({ page, kept }) {
-    this.progress.replaceChildren(h('p', { class: 'kept' }, 'Kept: ', h('a', { href: keptAddress(kept), target: '_blank', rel: 'noopener' }, kept), ` in ${this.choices.keep_folder}/`));
+  #showDiagnosis(holder, name, { page, kept }) {
+    holder.replaceChildren(this.#makeKept(name, kept));
     this.results.show(page);
     this.results.element.scrollIntoView({ block: 'start' });
   }
