@@ -164,8 +164,11 @@ std::string pretty_unit(std::string symbol) {
     const bool is_of_key = symbol.substr(first, symbol.find(' ', at) - first).find('_') != std::string::npos;
     if (!is_of_key) symbol.replace(at, 4, "°C");
   }
-  for (const auto& [plain, pretty] :
-       {std::pair("(km/h)2", "(km/h)²"), {"m/s2", "m/s²"}, {"s2/m2", "s²/m²"}, {"/mph2", "/mph²"}}) {
+  for (const auto& [plain, pretty] : {std::pair("(km/h)2", "(km/h)²"),
+                                      {"m/s2", "m/s²"},
+                                      {"kg m2", "kg m²"},
+                                      {"s2/m2", "s²/m²"},
+                                      {"/mph2", "/mph²"}}) {
     boost::algorithm::replace_all(symbol, plain, pretty);
   }
   return symbol;

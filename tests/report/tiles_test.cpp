@@ -90,6 +90,23 @@ TEST_CASE("a sweep says its first result's range and its sensitivity", "[fast]")
   }
 }
 
+TEST_CASE("a sweep in which nothing changes has tiles, too", "[fast]") {
+  const Json point = {{"set", {{"pressure_kPa", "250"}}},
+                      {"result", {{"rrc_25degC_2m_N_per_kN", 5.2}, {"drum_torque_Nm", 47.0}}}};
+  Json sweep = {{"scenario", "iso_28580"}, {"points", {point}}, {"sensitivities", Json::array()}};
+  const Json single = report::make_sweep_page(sweep, {}, "").sections.front().blocks.front()["tiles"];
+  CHECK(single[0]["label"] == "RRc at 25 °C, 2 m drum");
+  CHECK(single[0]["value"] == "5.2");
+  CHECK(single[0]["note"] == "pressure 250 kPa");
+  CHECK(single[0]["from"] == Json::array({"/points/0/result/rrc_25degC_2m_N_per_kN"}));
+  sweep["points"].push_back(point);
+  sweep["points"][1]["set"]["pressure_kPa"] = "260";
+  const Json equal = report::make_sweep_page(sweep, {"drum_torque_Nm"}, "").sections.front().blocks.front()["tiles"];
+  REQUIRE(equal.size() == 1);
+  CHECK(equal[0]["value"] == "47");
+  CHECK(equal[0]["note"] == "the same in all 2 runs");
+}
+
 TEST_CASE("panels over time show no ramp where a row of a minute ends, nothing that is zero and nothing twice",
           "[fast]") {
   namespace quantities = models::quantities;
@@ -121,6 +138,17 @@ TEST_CASE("panels over time show no ramp where a row of a minute ends, nothing t
   for (std::size_t i = 0; i < t.size(); ++i) {  // in the last minute of the soak it stands
     if (t[i] < -1.0) CHECK(torque["series"][0]["y"][i] == 0.0);
     if (t[i] == 0.0) CHECK(t[i - 1] == -1.0);
+  }
+  // What is drawn and no row is said, so that it is not saved as one.
+  CHECK(torque["series"][0]["held"] == Json::array({-1.0}));
+  for (const Json& panel : block["panels"]) {
+    for (const Json& series : panel["series"]) {
+      const Json held = series.value("held", Json::array());
+      for (const Json& time_s : series["t"]) {
+        const bool is_row = std::count(recording.time_s.begin(), recording.time_s.end(), time_s.get<double>()) == 1;
+        CHECK(is_row == (std::count(held.begin(), held.end(), time_s) == 0));
+      }
+    }
   }
   REQUIRE(torque.contains("scale"));  // 180 N m of the run-up lie beyond
   CHECK(torque["scale"][1].get<double>() < 51.0);
