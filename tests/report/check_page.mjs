@@ -160,7 +160,10 @@ async function saveChart(index, way, folder) {
   });
   await click('.save summary', index);
   await click(`.save[open] button`, way);
-  const late = setTimeout(ended, kPatience_ms);
+  const late = setTimeout(() => {
+    stalled = true;
+    ended();
+  }, kPatience_ms);
   await saved;
   clearTimeout(late);
   stop();
@@ -236,7 +239,7 @@ async function checkSaving() {
     const isWide = png.bytes.length > 100 && png.bytes.readUInt32BE(16) === 2 * width;
     check(png.name.endsWith('.png') && isWide && (await measureInk(png.bytes.toString('base64'))).ink > 0.005, `${png.name} is the picture at twice its width`);
   } finally {
-    rmSync(folder, { recursive: true });
+    rmSync(folder, { recursive: true, force: true, maxRetries: 5 });
   }
 }
 

@@ -5,6 +5,9 @@ export const kFindProblems = `(() => {
   const problems = new Set();
   const short = (text) => text.trim().replace(/\\s+/g, ' ').slice(0, 40);
   const meet = (a, b, by) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > by && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > by;
+  // Numbers of an axis, side by side or one above the other.
+  const isNumber = (text) => /^[-\\u2212+\\d.,e]+$/.test(text.trim());
+  const touch = (a, b) => meet(a, b, 1) || Math.abs(a.top - b.top) < 2 && Math.max(a.left, b.left) - Math.min(a.right, b.right) < 3;
   const wide = document.documentElement.classList.contains('paper') ? document.querySelector('#page').getBoundingClientRect().right + 1 : innerWidth;
 
   // Texts of charts: those of axes, titles and legends stay apart, and inside of their chart.
@@ -20,6 +23,7 @@ export const kFindProblems = `(() => {
     for (let i = 0; i < texts.length; ++i) {
       for (let k = i + 1; k < texts.length && texts[k].box.top < texts[i].box.bottom; ++k) {
         if (meet(texts[i].box, texts[k].box, 2.5)) problems.add('one over the other: ' + short(texts[i].text) + ' | ' + short(texts[k].text));
+        else if (isNumber(texts[i].text) && isNumber(texts[k].text) && touch(texts[i].box, texts[k].box)) problems.add('read as one number: ' + short(texts[i].text) + ' | ' + short(texts[k].text));
       }
     }
     // No legend lies over a plot.
