@@ -60,7 +60,7 @@ export function axisStyle() {
 export const axisTitle = (text, legend) => ({ text, left: 0, top: typeof legend === 'number' ? legend + 2 : legend ? 26 : 2, padding: 0, textStyle: { fontSize: 12, fontWeight: 400, color: color('soft') } });
 
 const kIcon_px = 26;
-const kGap_px = 8;
+const kGap_px = 10;
 const kLegendLine_px = 16;
 let ruler;
 

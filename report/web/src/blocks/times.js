@@ -28,14 +28,26 @@ function legendOf(panel, width) {
     formatter: (name) => name.split('|').at(-1) } };
 }
 
-/// On paper a legend that says what the one above says is left out.
-const namesOf = (panel) => panel.series.map((series) => series.name).join('|');
-const hasLegend = (panels, i) => !isOnPaper() || i === 0 || namesOf(panels[i]) !== namesOf(panels[i - 1]);
+/// Which panels have a legend. On paper and where there is little room, one that says nothing beyond the one above is left
+/// out.
+const kNarrow_px = 600;
+function chooseLegends(panels, width) {
+  let above = [];
+  return panels.map(({ series }) => {
+    const names = series.map(({ name }) => name);
+    const isSaid = (isOnPaper() || width < kNarrow_px) && names.every((name) => above.includes(name));
+    if (!isSaid && names.length > 1) above = names;
+    return !isSaid;
+  });
+}
 
 /// Where the panels lie: [{top, height, legend}], one below the other, each with its title and its legend above it.
 const kPanel_px = 108;
-const kFewLabels_px = 70; // height below which an axis has room for two numbers
-const headsOf = (panels, width) => panels.map((panel, i) => 12 + kTitle_px + (hasLegend(panels, i) ? legendOf(panel, width).height : 0));
+const kFewLabels_px = 70; // height below which an axis has room for few numbers
+function headsOf(panels, width) {
+  const hasLegend = chooseLegends(panels, width);
+  return panels.map((panel, i) => 12 + kTitle_px + (hasLegend[i] ? legendOf(panel, width).height : 0));
+}
 
 /// Height of a panel on paper, where many are less high.
 const kPaper_px = 860;
@@ -88,6 +100,23 @@ function limits({ min, max }, scale) {
   if (max - min >= least || !(least > 0)) return { min: null, max: null };
   const step = 10 ** Math.floor(Math.log10(least));
   return { min: Math.floor((min - least / 2) / step) * step, max: Math.ceil((max + least / 2) / step) * step };
+}
+
+const kLabel_px = 17; // from one number of an axis to the next
+const kSteps = [1, 2, 5, 10];
+
+/// An axis of a panel that is so low that the numbers would touch: with round steps, no more than there is room for.
+function lowAxis(panel, height) {
+  const values = panel.series.flatMap((series) => series.y).filter((y) => y !== null);
+  const extent = values.reduce(({ min, max }, y) => ({ min: Math.min(min, y), max: Math.max(max, y) }), { min: Infinity, max: -Infinity });
+  const { min, max } = limits(extent, panel.scale);
+  const [from, to] = [min ?? extent.min, max ?? extent.max];
+  if (!(to > from)) return {};
+  const most = Math.max(1, Math.floor(height / kLabel_px));
+  const ends = (step) => [Math.floor(from / step + 1e-9), Math.ceil(to / step - 1e-9)];
+  const power = 10 ** Math.floor(Math.log10((to - from) / most));
+  const step = [1, 10].flatMap((tens) => kSteps.map((k) => k * tens * power)).find((one) => ends(one)[1] - ends(one)[0] <= most) ?? to - from;
+  return { min: ends(step)[0] * step, max: ends(step)[1] * step, interval: step };
 }
 
 function findSpan(block) {
@@ -195,6 +224,7 @@ function makeOption(block, span, unit, width, hovered) {
   const legends = [];
   const series = [phaseStrip(block.phases || [], unit)];
   const places = placePanels(block, width);
+  const hasLegend = chooseLegends(block.panels, width);
   block.panels.forEach((panel, i) => {
     const last = i === block.panels.length - 1;
     const { top, height, title, legend } = places[i];
@@ -206,13 +236,14 @@ function makeOption(block, span, unit, width, hovered) {
       name: last ? `Time, ${unit.symbol}` : '', nameLocation: 'middle', nameGap: 22, splitLine: { show: false },
       axisPointer: { snap: false, lineStyle: { color: color('soft'), type: 'solid', width: 1 }, label: { show: false } },
     });
-    yAxes.push({ ...axis, type: 'value', gridIndex: i + 1, scale: true, splitNumber: height < kFewLabels_px ? 1 : 3, axisLine: { ...axis.axisLine, onZero: false }, min: (v) => limits(v, panel.scale).min, max: (v) => limits(v, panel.scale).max,
+    yAxes.push({ ...axis, type: 'value', gridIndex: i + 1, scale: true, splitNumber: 3, axisLine: { ...axis.axisLine, onZero: false }, min: (v) => limits(v, panel.scale).min, max: (v) => limits(v, panel.scale).max,
+      ...(height < kFewLabels_px ? lowAxis(panel, height) : {}),
       axisLabel: { ...axis.axisLabel, showMaxLabel: panel.scale ? false : undefined, formatter: (v) => number(v, 6).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '') } });
     titles.push({ left: kLeft - 4, top: title, padding: 0,
       text: `{b|${panel.label}} {u|${panel.unit}}`,
       textStyle: { fontSize: 12, color: color('ink'), rich: { b: { fontWeight: 600, fontSize: 12, color: color('ink') }, u: { fontSize: 12, color: color('soft') } } } });
     const { option } = legendOf(panel, width);
-    if (option && hasLegend(block.panels, i)) legends.push({ ...option, top: legend });
+    if (option && hasLegend[i]) legends.push({ ...option, top: legend });
     panel.series.forEach((one, k) => series.push(makeSeries(panel, one, i, k, unit, block.phases || [])));
   });
   const allX = xAxes.map((_, i) => i);
