@@ -76,7 +76,8 @@ struct Results {
     visit(Result{"iterations", "Corrections", "", "corrections of the set force"}, corrections);
     visit(Result{"largest_difference_N", "Largest difference", ".2f", "over the speeds of differences"},
           largest_difference_N);
-    visit(Result{"within_criterion", "  within the criterion", "", "whether it is within criterion_N"}, within_criterion);
+    visit(Result{"within_criterion", "  within the criterion", "", "whether it is within criterion_N"},
+          within_criterion);
     visit(ResultList{"differences", "Force at the wheels", "at speeds of 20 to 130 km/h"}, differences);
     visit(Result{"highway_rr_energy_Wh", "Rolling resistance on both highways", ".0f",
                  "of all tires that roll (true loss), over both highway cycles"},

@@ -4,120 +4,14 @@
 //  rows: [[start_s, step_s, number], ...], panels: [{label, unit, scale: [from, to], series: [{name, t, y, points, held, recorded, phases}]}]}
 // held: times of points that are drawn, but are no rows.
 // Of a recording the values in numbers are those of its rows (rows, recorded, phases), not of the lines.
-import { axisStyle, baseOption, Chart, chartFoot, forgetChartsIn, graphic, makeLegend, tipLine } from '../chart.js';
+import { axisStyle, baseOption, Chart, chartFoot, forgetChartsIn, graphic, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { recordedAt, rowAt, rowTimes, valueAt } from '../clock.js';
 import { clockTime, number, timeUnit } from '../format.js';
 import { column } from '../save.js';
 import { color, isOnPaper, onPaperChange, seriesStyle } from '../theme.js';
+import { chooseLegends, divideForPaper, kFewLabels_px, kFoot, kLeft, kRight, kStrip, legendOf, limits, lowAxis, panelsBottom, placePanels, uniqueName } from './panels.js';
 import { makePhaseTable } from './phase_table.js';
-
-const kLeft = 62;
-const kRight = 14;
-const kStrip = 20; // height of the row with the phases' names
-const kFoot = 66; // axis and zoom bar
-
-const kTitle_px = 22;
-
-/// A legend below the title of a panel, on lines of its own.
-function legendOf(panel, width) {
-  const names = panel.series.map((series) => uniqueName(panel, series));
-  const shown = panel.series.map((series) => series.name);
-  const { option, height } = makeLegend(shown, { left: kLeft - 4, width: width - kLeft - kRight, fontSize: 11 });
-  return { height, option: option && { ...option, data: panel.series.map((series, i) => ({ name: names[i], itemStyle: { opacity: series.points ? 1 : 0 } })),
-    formatter: (name) => name.split('|').at(-1) } };
-}
-
-/// Which panels have a legend. On paper and where there is little room, one that says nothing beyond the one above is left
-/// out.
-const kNarrow_px = 600;
-function chooseLegends(panels, width) {
-  let above = [];
-  return panels.map(({ series }) => {
-    const names = series.map(({ name }) => name);
-    const isSaid = (isOnPaper() || width < kNarrow_px) && names.every((name) => above.includes(name));
-    if (!isSaid && names.length > 1) above = names;
-    return !isSaid;
-  });
-}
-
-/// Where the panels lie: [{top, height, legend}], one below the other, each with its title and its legend above it.
-const kPanel_px = 108;
-const kFewLabels_px = 70; // height below which an axis has room for few numbers
-function headsOf(panels, width) {
-  const hasLegend = chooseLegends(panels, width);
-  return panels.map((panel, i) => 12 + kTitle_px + (hasLegend[i] ? legendOf(panel, width).height : 0));
-}
-
-/// Height of a panel on paper, where many are less high.
-const kPaper_px = 860;
-const paperHeight = (panels, width) => Math.max(46, Math.min(100, (kPaper_px - headsOf(panels, width).reduce((sum, head) => sum + head, 0)) / panels.length));
-
-function placePanels({ panels, panel_px = kPanel_px }, width) {
-  const heads = headsOf(panels, width);
-  const height = panel_px;
-  let top = kStrip + 8;
-  return panels.map((panel, i) => {
-    const place = { top: top + heads[i], height, title: top + 12, legend: top + 12 + kTitle_px - 2 };
-    top += heads[i] + height;
-    return place;
-  });
-}
-const panelsBottom = (block, width) => {
-  const last = placePanels(block, width).at(-1);
-  return last.top + last.height;
-};
-
-/// On paper a chart cannot go on behind the end of a sheet: panels in charts of their own, none of which is high.
-const kPaperWidth_px = 680; // of style.css
-const kPart_px = 380;
-function divideForPaper(block) {
-  const panel_px = paperHeight(block.panels, kPaperWidth_px);
-  const parts = [];
-  let used = Infinity;
-  headsOf(block.panels, kPaperWidth_px).forEach((head, i) => {
-    if (used + head + panel_px > kPart_px) {
-      parts.push([]);
-      used = 0;
-    }
-    parts.at(-1).push(block.panels[i]);
-    used += head + panel_px;
-  });
-  return parts.map((panels) => ({ ...block, panel_px, panels }));
-}
-
-/// Limits of an axis that do not blow up what hardly changes. `scale`: what the loaded phases reach; lines may leave the panel
-/// beyond.
-function limits({ min, max }, scale) {
-  if (scale) {
-    const span = scale[1] - scale[0];
-    const margin = 0.08 * span;
-    const round = 10 ** Math.floor(Math.log10(margin));
-    const from = scale[0] >= 0 && scale[0] <= span ? 0 : scale[0] - margin;
-    return { min: Math.floor(from / round) * round, max: Math.ceil((scale[1] + margin) / round) * round };
-  }
-  const least = 0.01 * Math.max(Math.abs(min), Math.abs(max));
-  if (max - min >= least || !(least > 0)) return { min: null, max: null };
-  const step = 10 ** Math.floor(Math.log10(least));
-  return { min: Math.floor((min - least / 2) / step) * step, max: Math.ceil((max + least / 2) / step) * step };
-}
-
-const kLabel_px = 17; // from one number of an axis to the next
-const kSteps = [1, 2, 5, 10];
-
-/// An axis of a panel that is so low that the numbers would touch: with round steps, no more than there is room for.
-function lowAxis(panel, height) {
-  const values = panel.series.flatMap((series) => series.y).filter((y) => y !== null);
-  const extent = values.reduce(({ min, max }, y) => ({ min: Math.min(min, y), max: Math.max(max, y) }), { min: Infinity, max: -Infinity });
-  const { min, max } = limits(extent, panel.scale);
-  const [from, to] = [min ?? extent.min, max ?? extent.max];
-  if (!(to > from)) return {};
-  const most = Math.max(1, Math.floor(height / kLabel_px));
-  const ends = (step) => [Math.floor(from / step + 1e-9), Math.ceil(to / step - 1e-9)];
-  const power = 10 ** Math.floor(Math.log10((to - from) / most));
-  const step = [1, 10].flatMap((tens) => kSteps.map((k) => k * tens * power)).find((one) => ends(one)[1] - ends(one)[0] <= most) ?? to - from;
-  return { min: ends(step)[0] * step, max: ends(step)[1] * step, interval: step };
-}
 
 function findSpan(block) {
   const ends = block.panels.flatMap((panel) => panel.series.filter((s) => s.t.length).map((s) => [s.t[0], s.t.at(-1)]));
@@ -164,9 +58,6 @@ function phaseShading(phases, unit) {
     data: phases.filter((_, i) => i % 2 === 1).map((p) => [{ xAxis: p.start_s / unit.seconds }, { xAxis: p.end_s / unit.seconds }]),
   };
 }
-
-/// Names of series are those of the whole chart: two panels may have a line of the same name.
-const uniqueName = (panel, series) => `${panel.label}|${series.name}`;
 
 function makeSeries(panel, series, index, k, unit, phases) {
   const line = panel.series.slice(0, k).filter((one) => !one.points).length; // points take no line's style

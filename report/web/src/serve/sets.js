@@ -183,20 +183,21 @@ export class Sets {
     const holder = this.#addJob(job);
     const bar = h('progress', { max: 1, 'aria-label': `Progress of the diagnosis of ${name}` });
     const text = h('span', { role: 'status' });
-    const cancel = h('button', { type: 'button', class: 'tool', id: 'cancel', onclick: () => post(`/api/jobs/${job}/cancel`) }, 'Cancel');
+    const cancel = h('button', { type: 'button', class: 'tool cancel', onclick: () => post(`/api/jobs/${job}/cancel`) }, 'Cancel');
     holder.replaceChildren(h('div', { class: 'progress' }, h('span', null, `Diagnosis of ${name}`), bar, text, cancel));
-    let start_ms = performance.now();
+    let start = null; // of this part of the work, as far as the page has seen it
     let last = 0;
     for (;;) {
       const now = await get(`/api/jobs/${job}`);
       if (now.state === 'done') return this.#showDiagnosis(holder, name, now.result);
       if (now.state === 'failed') return holder.replaceChildren(h('p', null, `Diagnosis of ${name}:`), makeProblem(now.error));
       if (now.state === 'canceled') return holder.replaceChildren(h('p', null, `Diagnosis of ${name}: canceled. Nothing was kept.`));
-      if (!(now.done >= last)) start_ms = performance.now(); // more work has turned out to follow
+      if (!start || !(now.done >= last)) start = { ms: performance.now(), done: now.done ?? 0 }; // more work may turn out to follow
       last = now.done ?? 0;
-      const elapsed_s = (performance.now() - start_ms) / 1000;
+      const elapsed_s = (performance.now() - start.ms) / 1000;
+      const gained = last - start.done;
       if (now.state === 'running' && now.done > 0) bar.value = now.done;
-      const left = now.done > 0.02 && elapsed_s > 2 ? `, about ${clockTime((elapsed_s * (1 - now.done)) / now.done)} left` : '';
+      const left = gained > 0.02 && elapsed_s > 2 ? `, about ${clockTime((elapsed_s * (1 - last)) / gained)} left` : '';
       text.textContent = now.state === 'waiting' ? 'waits for another diagnosis' : `${Math.round(100 * (now.done ?? 0))} %${left}  ${now.stage}`;
       await wait(kBetweenLooks_ms);
     }
