@@ -6,7 +6,8 @@ import { typeset } from '../format.js';
 import { drawTable } from '../picture.js';
 import { column, columnOf, numberOrText, saveMenu } from '../save.js';
 
-const makeFoot = (title, table, data) => h('div', { class: 'chartfoot' }, saveMenu({ title, data, picture: () => drawTable(table) }));
+/// What is saved has the first sentence of the caption as its name.
+const makeFoot = (caption, table, data) => h('div', { class: 'chartfoot' }, saveMenu({ title: caption.split('. ')[0], data, picture: () => drawTable(table) }));
 
 function makeCell(cell) {
   if (!cell) return h('td', { class: 'empty' }, '\u00b7');
