@@ -39,8 +39,8 @@ struct Expected<std::pair<std::array<double, 3>, std::array<double, 3>>> {
 /// A bool of Python or NumPy.
 bool is_bool(py::handle given);
 
-/// Each throws TypeError, which names the argument, for another type, and InputError for a number that the member
-/// cannot hold.
+/// Each throws TypeError for a value of another type, and InputError for a number that the member cannot hold. Both
+/// name the argument.
 template <class Member, std::enable_if_t<!std::is_integral_v<Member>, int> = 0>
 void read_argument(py::handle given, const std::string& name, Member& member) {
   try {

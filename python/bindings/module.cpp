@@ -34,8 +34,8 @@ void fill(py::module_& module) {
   bind_results(module);
 }
 
-/// The module, which is made once: pybind11 knows its types for the whole process. A subinterpreter is refused before
-/// it touches pybind11, which would wait there for a GIL that the same thread holds.
+/// The module. It is made once, since pybind11 keeps its types for the whole process. A subinterpreter is refused
+/// before pybind11 is used: there pybind11 would wait forever for the GIL, which the waiting thread holds itself.
 PyObject* make_module(PyObject*, PyModuleDef*) {
   if (PyInterpreterState_Get() != PyInterpreterState_Main()) {
     PyErr_SetString(PyExc_ImportError, "rollrig works in the main interpreter alone, not in a subinterpreter");
@@ -61,8 +61,8 @@ PyObject* make_module(PyObject*, PyModuleDef*) {
 }  // namespace
 }  // namespace rollrig::python
 
-/// By hand, since PYBIND11_MODULE touches pybind11 before anything can be checked, and Python copies what it makes into
-/// subinterpreters.
+/// Written by hand: PYBIND11_MODULE would use pybind11 before the interpreter is checked, and Python would copy the
+/// finished module into subinterpreters without a call that could refuse it.
 extern "C" PYBIND11_EXPORT PyObject* PyInit__rollrig() {
   PYBIND11_CHECK_PYTHON_VERSION
   static PyModuleDef_Slot slots[] = {{Py_mod_create, reinterpret_cast<void*>(&rollrig::python::make_module)},
