@@ -5,14 +5,14 @@
    Texts are UTF-8 and end with a NUL character. There are three kinds of functions:
    - Functions that create an object return it. Where they fail, they return a null pointer.
    - Functions that act (set, get, start, step, reset, differentiate, save, load) return a status.
-   - Functions that only tell something return a count, a size, a number of a variable, or a text. For a null object, an
-     unknown number or an unknown name, they return 0, -1 and a null pointer, respectively.
+   - Functions that only tell something return a count, a size, the number of a variable, or a text. For a null object,
+     an unknown number or an unknown name, the count or size is 0, the number is -1, and the text is a null pointer.
    rollrig_last_error() says why a function of the first two kinds failed. The third kind does not change it.
 
    Two threads may use two objects at the same time, but not the same object.
 
-   Free each object once, with rollrig_wheel_free() or rollrig_run_free(). To free a null pointer does nothing. Names and
-   other texts of an object are valid until it is freed. */
+   Free each object once, with rollrig_wheel_free() or rollrig_run_free(). To free a null pointer does nothing. Names
+   and other texts of an object are valid until it is freed. */
 
 #define ROLLRIG_C_API_VERSION 1
 
@@ -31,8 +31,8 @@ extern "C" {
    header, do not call the library. */
 int rollrig_c_api_version(void);
 
-/* Why the last call of this thread failed, not counting calls that only tell something. Empty if that call did not fail,
-   or if there was no memory for the text. Valid until the next call that counts. */
+/* Why the last call of this thread failed, not counting calls that only tell something. Empty if that call did not
+   fail, or if there was no memory for the text. Valid until the next call that counts. */
 const char* rollrig_last_error(void);
 
 /* A warm tire on its wheel, without effects, whose motion the caller gives. Its variables have numbers from 0, and
