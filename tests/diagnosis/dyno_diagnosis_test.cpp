@@ -166,7 +166,7 @@ TEST_CASE("columns and units of a dynamometer's set that cannot be are named", "
   }
 }
 
-TEST_CASE("each effect that a dynamometer shows is named at a middling size", "[slow]") {
+TEST_CASE("each effect that a dynamometer shows is named at a middling size", "[weekly]") {
   measurements::MeasurementSet campaign = make_dyno_set({}, 3);
   for (measurements::MeasuredRun& run : campaign.runs) run = tests::thin_out(run, 4);
   int named = 0;

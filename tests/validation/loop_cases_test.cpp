@@ -56,7 +56,7 @@ TEST_CASE("where every test fails, hours go and nothing is learned", "[slow]") {
   }
 }
 
-TEST_CASE("a fixed campaign does not depend on what is measured", "[slow]") {
+TEST_CASE("a fixed campaign does not depend on what is measured", "[weekly]") {
   std::vector<std::vector<std::string>> done;
   for (const std::string effect : {"windage", "load_exponent"}) {  // on the same machine, by the same seed
     const tests::TemporaryFolder folder;

@@ -42,7 +42,7 @@ Study study_clocks(LogsPlan plan, int seeds, double lag_sd_s) {
 
 }  // namespace
 
-TEST_CASE("a shift from the speed that both logs have is held by its interval", "[slow]") {
+TEST_CASE("a shift from the speed that both logs have is held by its interval", "[weekly]") {
   LogsPlan plan;
   plan.tire_has_speed = true;
   const int seeds = 200;
