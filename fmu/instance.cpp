@@ -56,12 +56,20 @@ void require_times(double start_s, double stop_s) {
                     fmt::format("{:g}", stop_s), fmt::format(">= {:g} s", start_s), ""});
 }
 
+double find_rounding_s(double time_s) {
+  const double distance_s = std::abs(time_s);
+  return 4.0 * (std::nextafter(distance_s, HUGE_VAL) - distance_s);
+}
+
 /// How far the time that an importer says may be from that of the wheel: importers add up their steps in other ways.
 /// Less than a step, so that none is done twice or left out, unless the step is lost in the rounding of the time.
 double find_slack_s(double time_s, double step_s) {
-  const double distance_s = std::abs(time_s);
-  const double rounding_s = 4.0 * (std::nextafter(distance_s, HUGE_VAL) - distance_s);
-  return std::max(rounding_s, std::min(1e-9 * std::max(1.0, distance_s), 0.5 * step_s));
+  return std::max(find_rounding_s(time_s), std::min(1e-9 * std::max(1.0, std::abs(time_s)), 0.5 * step_s));
+}
+
+/// The same from one step of the importer to the next, over which its sum and the wheel's do not drift apart.
+double find_slack_between_steps_s(double time_s, double step_s) {
+  return std::max(find_rounding_s(time_s), std::min(1e-9, 0.5 * step_s));
 }
 
 SavedState& to_saved_state(void* state) {
@@ -135,6 +143,7 @@ void Instance::exit_initialization() {
 
 void Instance::reset() {
   wheel.reset();
+  next_start_s_.reset();
   stage = kInstantiated;
   start_s = 0.0;
   stop_s = std::numeric_limits<double>::infinity();
@@ -180,16 +189,19 @@ void Instance::set_slopes(const unsigned* references, std::size_t count, const d
 }
 
 void Instance::step(double time_s, double step_s) {
-  const double slack_s = find_slack_s(wheel.time_s(), step_s);
-  if (!(std::abs(time_s - wheel.time_s()) <= slack_s)) {
-    throw InputError({"the step does not begin where the last one ended", "", 0, "time", fmt::format("{:g}", time_s),
-                      fmt::format("{:g} s", wheel.time_s()), ""});
+  const double expected_s = next_start_s_.value_or(wheel.time_s());
+  const double slack_s =
+      next_start_s_.has_value() ? find_slack_between_steps_s(expected_s, step_s) : find_slack_s(expected_s, step_s);
+  if (!(std::abs(time_s - expected_s) <= slack_s)) {
+    throw InputError({"the step does not begin where the last one ended", "", 0, "time", fmt::format("{:.17g}", time_s),
+                      fmt::format("{:.17g} s", expected_s), ""});
   }
-  if (wheel.time_s() + step_s > stop_s + slack_s) {
-    throw InputError({"the step leads beyond the stop time", "", 0, "step", fmt::format("{:g}", step_s),
-                      fmt::format("up to {:g} s", stop_s - wheel.time_s()), ""});
+  if (time_s + step_s > stop_s + slack_s) {
+    throw InputError({"the step leads beyond the stop time", "", 0, "step", fmt::format("{:.17g}", step_s),
+                      fmt::format("up to {:.17g} s", stop_s - time_s), ""});
   }
   wheel.advance(step_s);
+  next_start_s_ = time_s + step_s;
 }
 
 void Instance::differentiate(const unsigned* unknown, std::size_t unknown_count, const unsigned* known,
@@ -241,6 +253,7 @@ void Instance::set_state(void* state) {
   if (!is_one || has_states == saved.wheel.states.empty()) refuse("the state is one of another kind of instance");
   require_times(saved.start_s, saved.stop_s);
   wheel.restore(saved.wheel);
+  next_start_s_.reset();
   start_s = saved.start_s;
   stop_s = saved.stop_s;
   stage = wanted;

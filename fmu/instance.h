@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,7 @@ struct Instance {
   double stop_s = std::numeric_limits<double>::infinity();
 
  private:
+  std::optional<double> next_start_s_;  // of the next step, as the importer reckons time; none before the first step
   void require_stage(unsigned stages) const;
   /// Throws InputError where there is no room for exactly the states of the wheel.
   void require_states(const void* numbers, std::size_t count) const;

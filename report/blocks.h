@@ -19,6 +19,15 @@ Json rounded(double value);
 Json make_series(const std::string& name, const std::vector<double>& time_s, const std::vector<double>& values,
                  std::size_t most = 2000);
 
+/// Rows as a line is drawn through them. A row is a mean over its sample. Where a phase begins with a jump and with
+/// shorter samples, the straight line from the row before would be a ramp that nothing has: the value before is held.
+struct DrawnRows {
+  std::vector<double> time_s;
+  std::vector<double> values;
+  std::vector<double> held_s;  // times of points that are no rows
+};
+DrawnRows hold_to_jumps(const std::vector<double>& time_s, const std::vector<double>& values);
+
 /// Indices of the rows of a series that are kept, in order; at most `most` of them (at least 8), none of its extremes
 /// lost.
 ///

@@ -168,9 +168,10 @@ Json make_overlay_series(const std::string& name, const OverlayLine& line, std::
   double size = 0.0;
   for (const double value : line.values) size = std::isfinite(value) ? std::max(size, std::abs(value)) : size;
   Json t = Json::array(), y = Json::array();
-  for (const std::size_t row : thin(line.time_s, line.values, most, kShownShare * size)) {
-    t.push_back(std::round(1e3 * line.time_s[row]) / 1e3);
-    y.push_back(rounded(line.values[row]));
+  const DrawnRows rows = hold_to_jumps(line.time_s, line.values);
+  for (const std::size_t row : thin(rows.time_s, rows.values, most, kShownShare * size)) {
+    t.push_back(std::round(1e3 * rows.time_s[row]) / 1e3);
+    y.push_back(rounded(rows.values[row]));
   }
   return {{"name", name}, {"t", t}, {"y", y}};
 }

@@ -78,6 +78,17 @@ Json& find_sweep_series(Json& series, const std::string& name, const Json& empty
   return series.back();
 }
 
+/// A line goes from the least value to the greatest, in whatever order they were asked for.
+void sort_by_x(Json& line) {
+  std::vector<std::pair<Json, Json>> points;
+  for (std::size_t i = 0; i < line["x"].size(); ++i) points.emplace_back(line["x"][i], line["y"][i]);
+  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    line["x"][i] = points[i].first;
+    line["y"][i] = points[i].second;
+  }
+}
+
 /// Lines over a quantity, or bars over tires; a line or a color for each of the values of the others.
 Block make_sweep_curves(const Json& sweep, const std::vector<std::string>& axes, const std::string& key,
                         const std::string& name) {
@@ -97,6 +108,7 @@ Block make_sweep_curves(const Json& sweep, const std::vector<std::string>& axes,
     if (!has_lines && others.empty()) own["labels"].push_back(fmt::format("{:.4g}", result_value(point, key)));
     if (std::find(categories.begin(), categories.end(), at) == categories.end()) categories.push_back(at);
   }
+  if (has_lines) std::for_each(series.begin(), series.end(), sort_by_x);
   const Axis y{name, shown_unit(key)};
   if (!has_lines) return make_bars(y, categories, series);
   return make_curves({capitalized(name_axis(drawn)), shown_unit(last_part(drawn))}, y, series);

@@ -104,6 +104,27 @@ std::vector<std::size_t> drop_collinear(const Kept& kept, double tolerance) {
 
 }  // namespace
 
+DrawnRows hold_to_jumps(const std::vector<double>& time_s, const std::vector<double>& values) {
+  constexpr double kShorter = 3.0;  // times: samples of another interval
+  constexpr double kJump = 3.0;     // times the change before
+  DrawnRows rows;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    if (i >= 2 && i + 1 < time_s.size()) {
+      const double before_s = time_s[i] - time_s[i - 1];
+      const double after_s = time_s[i + 1] - time_s[i];
+      const bool is_jump = std::abs(values[i] - values[i - 1]) > kJump * std::abs(values[i - 1] - values[i - 2]);
+      if (before_s > kShorter * after_s && is_jump) {
+        rows.time_s.push_back(time_s[i] - after_s);
+        rows.held_s.push_back(rows.time_s.back());
+        rows.values.push_back(values[i - 1]);
+      }
+    }
+    rows.time_s.push_back(time_s[i]);
+    rows.values.push_back(values[i]);
+  }
+  return rows;
+}
+
 std::vector<std::size_t> thin(const std::vector<double>& time_s, const std::vector<double>& values, std::size_t most,
                               double tolerance) {
   return drop_collinear({time_s, values, keep_extremes(values, std::max<std::size_t>(most, 8))}, tolerance);

@@ -90,36 +90,6 @@ struct Panel {
   std::vector<std::vector<double>> values = {};  // of each series
 };
 
-/// Rows as a line is drawn through them. A row is a mean over its sample. Where a phase begins with a jump and with
-/// shorter samples, the straight line from the row before would be a ramp that nothing has: the value before is held.
-struct DrawnRows {
-  std::vector<double> time_s;
-  std::vector<double> values;
-  std::vector<double> held_s;  // times of points that are no rows
-};
-
-DrawnRows hold_to_jumps(const sim::Recording<double>& recording, const std::vector<double>& values) {
-  constexpr double kShorter = 3.0;  // times: samples of another interval
-  constexpr double kJump = 3.0;     // times the change before
-  DrawnRows rows;
-  const std::vector<double>& time_s = recording.time_s;
-  for (std::size_t i = 0; i < time_s.size(); ++i) {
-    if (i >= 2 && i + 1 < time_s.size()) {
-      const double before_s = time_s[i] - time_s[i - 1];
-      const double after_s = time_s[i + 1] - time_s[i];
-      const bool is_jump = std::abs(values[i] - values[i - 1]) > kJump * std::abs(values[i - 1] - values[i - 2]);
-      if (before_s > kShorter * after_s && is_jump) {
-        rows.time_s.push_back(time_s[i] - after_s);
-        rows.held_s.push_back(rows.time_s.back());
-        rows.values.push_back(values[i - 1]);
-      }
-    }
-    rows.time_s.push_back(time_s[i]);
-    rows.values.push_back(values[i]);
-  }
-  return rows;
-}
-
 /// Rows that set the scale of a drum's panels: those in which the tire carries its load or the speed is steady, where
 /// readings are taken. Run-up and the moment of a change of load reach far beyond and would flatten the rest.
 std::vector<bool> find_scale_rows(const sim::Recording<double>& recording) {
@@ -249,7 +219,7 @@ Block make_times(const sim::Recording<double>& recording) {
     const std::string channel = recording.channels[i].quantity.header();
     Panel& panel = find_panel(panels, *place, shown_unit(channel));
     const std::vector<double> values = in_unit_of(channel, recording.values[i]);
-    const DrawnRows rows = hold_to_jumps(recording, values);
+    const DrawnRows rows = hold_to_jumps(recording.time_s, values);
     Json series = make_series(place->series, rows.time_s, rows.values, most_points);
     add_held_times(rows.held_s, series);
     series["phases"] = summarize_phases(recording, values);

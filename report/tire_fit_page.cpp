@@ -113,8 +113,11 @@ Block make_forest(const TireFit& fit) {
            "second line was not known before."}};
 }
 
-std::string show_uncertain(const estimation::Uncertain& at, double unit, const char* digits) {
-  const auto show = [&](double value) { return fmt::format(fmt::runtime(digits), value / unit); };
+/// With so many decimals, or more where the uncertainty would be 0.
+std::string show_uncertain(const estimation::Uncertain& at, double unit, int decimals) {
+  constexpr int kMost = 6;
+  while (decimals < kMost && at.sd > 0.0 && at.sd / unit < 0.5 * std::pow(10.0, -decimals)) ++decimals;
+  const auto show = [&](double value) { return fmt::format("{:.{}f}", value / unit, decimals); };
   return show(at.value) + " +- " + show(at.sd);
 }
 
@@ -123,16 +126,16 @@ Block make_steady_tiles(const TireFit& fit) {
   const auto from = [](const char* key) -> std::vector<std::string> {
     return {fmt::format("/steady/{}/value", key), fmt::format("/steady/{}/sd", key)};
   };
-  return make_tiles({{"RRc at 80 km/h and 25 degC", show_uncertain(steady.rrc, 1e-3, "{:.3f}"), "N/kN",
+  return make_tiles({{"RRc at 80 km/h and 25 degC", show_uncertain(steady.rrc, 1e-3, 3), "N/kN",
                       fmt::format("warm, at {:.0f} N and {:.0f} kPa; +- is one standard uncertainty", steady.at.load_N,
                                   unit_of_key("pressure_kPa").from_si(steady.at.pressure_Pa)),
                       "", from("rrc_N_per_kN")},
-                     {"Falls with temperature by", show_uncertain(steady.fall_per_K, 1e-2, "{:.2f}"), "%/K",
+                     {"Falls with temperature by", show_uncertain(steady.fall_per_K, 1e-2, 2), "%/K",
                       fmt::format("of the loss, at {:.0f} degC, the temperature of the warm tire",
                                   unit_of_key("temperature_degC").from_si(steady.at.temperature_K)),
                       "", from("fall_percent_per_degC")},
-                     {"Warm-up time constant", show_uncertain(steady.time_constant_s, 60.0, "{:.1f}"), "min",
-                      "at 80 km/h", "", from("time_constant_min")},
+                     {"Warm-up time constant", show_uncertain(steady.time_constant_s, 60.0, 1), "min", "at 80 km/h", "",
+                      from("time_constant_min")},
                      {"Misfit of the model",
                       fmt::format("{:.2f}", std::sqrt(fit.chi2_per_sample)),
                       "",

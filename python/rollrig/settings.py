@@ -6,6 +6,7 @@ import decimal
 import numbers
 import operator
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Union
 
@@ -143,6 +144,9 @@ def list_settings(settings: Mapping[str, Any], prefix: str = "") -> Iterator[str
     for key, value in settings.items():
         if not isinstance(key, str):
             raise wrong_type(prefix[:-1], "a dict with texts as keys is expected", settings)
+        if not re.fullmatch(r"[\w.\-]+", key):
+            what = f"{prefix + key!r} is no key of a setting"
+            raise InputError(what, what, key=prefix + key, allowed="letters, digits, '_', '-' and '.'")
         if isinstance(value, Mapping) and value:
             yield from list_settings(value, f"{prefix}{key}.")
         elif value is not None:

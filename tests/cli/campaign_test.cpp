@@ -182,7 +182,7 @@ TEST_CASE("which factor a result depends on", "[slow]") {
   CHECK(found["factors"][0]["first"]["value"].get<double>() == Approx(1.0).margin(0.15));
   CHECK(found["factors"][1]["total"]["value"].get<double>() < 0.1);
   run_to_end("campaign sensitivity c --result rrc_N_per_kN --html c.html", at);
-  CHECK_THAT(read_file(at.file("c.html")), Catch::Contains("Mean of rrc in N/kN over ambient and pressure"));
+  CHECK_THAT(read_file(at.file("c.html")), Catch::Contains("Mean of RRc in N/kN over ambient and pressure"));
   run_to_end(std::string("campaign new few ") + kRun +
                  " --vary ambient_degC=20,30 --vary load_N=5000,5400 --design sobol_indices --points 16",
              at);

@@ -162,6 +162,8 @@ TEST_CASE("times at which rounding would lose a step are refused, and all others
   dated.step(of_2023_s, 0.5);
   CHECK(FMI2(fmu, fmi2DoStep)(dated.component, of_2023_s, 0.5, fmi2True) == fmi2Error);
   CHECK(FMI2(fmu, fmi2DoStep)(dated.component, of_2023_s + 1.0, 0.5, fmi2True) == fmi2Error);
+  CHECK(FMI2(fmu, fmi2DoStep)(dated.component, of_2023_s, 10.0, fmi2True) == fmi2Error);  // longer than the last one
+  CHECK(FMI2(fmu, fmi2DoStep)(dated.component, of_2023_s + 1.0, 60.0, fmi2True) == fmi2Error);
   for (int i = 1; i < 1000; ++i) dated.step(of_2023_s + 0.5 * i, 0.5);
   Fmi2 counted(fmu, fmi2CoSimulation);
   counted.initialize();

@@ -174,6 +174,16 @@ class Arguments(InFolder):
         with self.assertRaisesRegex(TypeError, "argument 'measured': unexpected key 'laod_N'"):
             rollrig.convert(force_N=32, measured={"laod_N": 4000}, wanted={})
 
+    def test_whose_key_would_set_another_setting_is_refused(self):
+        for key in ("pressure_kPa=300 #", "a=b", "pressure kPa", ""):
+            with self.assertRaises(rollrig.InputError, msg=key):
+                rollrig.run("iso_28580", tire="a50", **{key: 210})
+
+    def test_that_is_a_place_without_access_is_an_input_error(self):
+        for call in (rollrig.MeasurementSet, rollrig.validate, rollrig.find_sets):
+            with self.assertRaises(rollrig.InputError, msg=call.__name__):
+                call("x" * 300 + "/set")
+
     def test_that_are_settings_are_named_too(self):
         for value in (Unlike(), [Unlike()], [{"a": 1}], 1j):
             with self.assertRaisesRegex(TypeError, "argument 'pressure_kPa'"):

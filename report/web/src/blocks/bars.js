@@ -17,6 +17,9 @@ function barStyle(k) {
 const kLeast_px = 70; // width of a category below which bars lie
 const isLying = (block, width) => width / block.categories.length < kLeast_px;
 
+const kCategoryGap = 0.3, kBarGap = 0.08; // of a category's width, and of a bar's
+const widestBar = (lying) => (lying ? 22 : 72);
+
 /// Intervals as whiskers on the bars of one series.
 function whiskers(series, k, count, lying) {
   return {
@@ -27,7 +30,8 @@ function whiskers(series, k, count, lying) {
       const place = (value) => api.coord(lying ? [value, api.value(0)] : [api.value(0), value]);
       const along = lying ? 0 : 1;
       const band = api.size(lying ? [0, 1] : [1, 0])[1 - along];
-      const at = place(api.value(1))[1 - along] + (k - (count - 1) / 2) * ((0.7 * band) / count);
+      const width = Math.min(widestBar(lying), ((1 - kCategoryGap) * band) / (count + (count - 1) * kBarGap));
+      const at = place(api.value(1))[1 - along] + (k - (count - 1) / 2) * width * (1 + kBarGap);
       const [low, high] = [api.value(1), api.value(2)].map((value) => place(value)[along]);
       const line = (a, b, c, d) => (lying ? [b, a, d, c] : [a, b, c, d]);
       const whisker = (stroke, lineWidth) => [line(at, low, at, high), line(at - 4, low, at + 4, low), line(at - 4, high, at + 4, high)]
@@ -53,7 +57,7 @@ function makeOption(block, width) {
   const legend = legendOf(block, width);
   const lying = isLying(block, width);
   const bars = block.series.map((series, k) => ({
-    name: series.name, type: 'bar', data: series.values, itemStyle: barStyle(k), barGap: '8%', barMaxWidth: lying ? 22 : 72, barCategoryGap: '30%',
+    name: series.name, type: 'bar', data: series.values, itemStyle: barStyle(k), barGap: `${100 * kBarGap}%`, barMaxWidth: widestBar(lying), barCategoryGap: `${100 * kCategoryGap}%`,
     label: { show: Boolean(series.labels), position: lying ? 'right' : 'top', fontSize: 11, color: color('ink'), formatter: (p) => series.labels[p.dataIndex] },
   }));
   const names = { ...axis, type: 'category', data: block.categories, inverse: lying, splitLine: { show: false }, axisTick: { show: false },

@@ -18,6 +18,9 @@ function niceStep(span, positions) {
 
 const rounded = (value, step) => Number((Math.round(value / step) * step).toPrecision(12));
 
+/// The number that a person has written, with a point or a comma; NaN where it is none.
+const readNumber = (text) => (text.trim() === '' ? NaN : Number(text.trim().replace(',', '.')));
+
 /// Ends of a slider about a default: an ordinary range of temperatures, else from four tenths to sixteen tenths of it.
 /// Assumed: what one tries; the field beside it takes every number that is allowed.
 function spanAbout(value, { unit, lower, upper }) {
@@ -32,7 +35,8 @@ export class Slider {
     this.info = info;
     this.id = id;
     this.value = null; // of the person; null: the default
-    this.field = h('input', { type: 'number', id: `${id}-field`, step: 'any', class: 'field', 'aria-label': `${info.label}, ${info.unit || 'number'}` });
+    // A field of type number drops a comma without a word: "1,5" would be 15.
+    this.field = h('input', { type: 'text', inputmode: 'decimal', autocomplete: 'off', id: `${id}-field`, class: 'field', 'aria-label': `${info.label}, ${info.unit || 'number'}` });
     this.range = h('input', { type: 'range', id, min: 0, max: 1, step: 'any', title: info.doc });
     this.reset = h('button', { type: 'button', class: 'reset', title: 'Back to the default', 'aria-label': `${info.label}: back to the default`, disabled: true }, '\u21ba');
     this.message = h('div', { class: 'beside' });
@@ -40,7 +44,11 @@ export class Slider {
       h('div', { class: 'controlhead' }, h('label', { for: id, title: info.doc }, capitalized(info.label)), this.field, h('span', { class: 'unit' }, unitText(info.unit)), this.reset),
       this.range, this.message);
     this.range.addEventListener('input', () => this.#take(rounded(Number(this.range.value), this.step), onInput));
-    this.field.addEventListener('change', () => this.field.value !== '' && Number.isFinite(this.field.valueAsNumber) && this.#take(this.field.valueAsNumber, onInput));
+    this.field.addEventListener('change', () => {
+      const written = readNumber(this.field.value);
+      if (Number.isFinite(written)) this.#take(written, onInput);
+      else this.setProblem({ what: 'this is no number', value: this.field.value, allowed: 'a number such as 1.5' });
+    });
     this.reset.addEventListener('click', () => {
       this.value = null;
       if (this.fallback !== undefined) this.#show(this.fallback);
