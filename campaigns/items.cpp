@@ -95,11 +95,17 @@ struct DoneItems {
     }
   }
 
-  /// Of a part alone, as the next one.
+  /// Of a part alone, as the next one: every sixteenth item, then their successors, and so on. In a grid, the factor on
+  /// which the time of an item depends may change once; so a tenth of the work tells the time of the rest nevertheless.
+  /// Many items are carried out in their order, since SQLite takes longer to insert them in another.
   std::vector<std::size_t> list_open(const Part& part) const {
+    constexpr std::size_t kMany = 20000;  // Assumed: 10^5 items take a sixth longer in sixteen passes
+    const std::size_t passes = is_done.size() < kMany ? 16 : 1;
     std::vector<std::size_t> open;
-    for (std::size_t item = part.number - 1; item < is_done.size(); item += part.count) {
-      if (!is_done[item]) open.push_back(item);
+    for (std::size_t pass = 0; pass < passes; ++pass) {
+      for (std::size_t item = part.number - 1 + pass * part.count; item < is_done.size(); item += passes * part.count) {
+        if (!is_done[item]) open.push_back(item);
+      }
     }
     return open;
   }
