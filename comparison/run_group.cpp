@@ -106,7 +106,7 @@ std::string drop_load(const std::string& name) {
   return at == std::string::npos ? name : name.substr(0, at + kUnit.size());
 }
 
-/// Phases of a list that have no counterpart of their name in another, by what their names are without the load.
+/// Phases of one list whose name is not in another list; the key of each is its name without the load.
 std::map<std::string, std::vector<std::size_t>> list_alone(const std::vector<RunPhase>& phases,
                                                            const std::vector<RunPhase>& others) {
   std::map<std::string, std::vector<std::size_t>> alone;

@@ -1,5 +1,5 @@
 #pragma once
-/// Effects that go by the load or the pressure at which the loss of the tire is known.
+/// Effects that need the reference load or the reference pressure of the tire's loss.
 
 #include <string>
 #include <vector>

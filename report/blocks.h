@@ -98,7 +98,7 @@ Section make_section(const std::string& title, const std::vector<Table>& tables,
 /// Names of numbers of files as a person reads them: "heat capacity" of "thermal.heat_capacity_J_per_K"; with the name
 /// of the table before it where two would be the same.
 std::vector<std::string> name_numbers(const std::vector<std::string>& keys);
-/// The name of a measurement set in a title: of one that has the name of the scenario that wrote it, what that is.
+/// The name of a measurement set in a title. A set with the id of a scenario as its name has that scenario's title.
 std::string name_set(const std::string& name);
 /// Fitted numbers with their intervals; one without a standard deviation is on its bound.
 Table make_estimate_table(const std::string& title, const std::vector<ParameterEstimate>& estimates);

@@ -118,11 +118,10 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
   if (has_battery) {
     model.inputs.push_back(
         make_assumed_input("gain of the recharge meter", "gain_percent", 1.0, kRechargeGainLimit, "0.5 %"));
-    if (cycles.size() > 1)
-      model.left_out.push_back(
-          "MPGe: its relative uncertainty is that of the consumption with alternating current; of a label range, that "
-          "of "
-          "the range");
+    if (cycles.size() > 1) {
+      model.left_out.push_back("MPGe: its relative uncertainty is that of the consumption of alternating current");
+      model.left_out.push_back("range on a label: its relative uncertainty is that of the range");
+    }
     model.left_out.push_back(
         "usable battery energy and energy of the recharge: they are taken from the vehicle file without an "
         "uncertainty");

@@ -307,6 +307,17 @@ class Calls(unittest.TestCase):
         done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
+    def check_interrupted(self, program, output):
+        """Sends Ctrl-C to a program once it has printed a line; its runs would take longer than the time allowed."""
+        started = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+        started.stdout.readline()
+        time.sleep(0.5)
+        asked_s = time.monotonic()
+        started.send_signal(signal.SIGINT)
+        out, _ = started.communicate(timeout=60)
+        self.assertEqual(out, output)
+        self.assertLess(time.monotonic() - asked_s, 20)
+
     def test_of_other_threads_stop_at_ctrl_c_too(self):
         program = ("import threading, rollrig\n"
                    "def simulate(progress):\n"
@@ -322,28 +333,14 @@ class Calls(unittest.TestCase):
                    "print('begun', flush=True)\n"
                    "simulate(False)\n"
                    "thread.join()\n")
-        started = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
-        started.stdout.readline()
-        time.sleep(0.5)
-        asked_s = time.monotonic()
-        started.send_signal(signal.SIGINT)
-        out, _ = started.communicate(timeout=60)
-        self.assertEqual(out, "stopped\nstopped\n")
-        self.assertLess(time.monotonic() - asked_s, 20)
+        self.check_interrupted(program, "stopped\nstopped\n")
 
     def test_stop_at_ctrl_c(self):
         program = ("import rollrig\ntry:\n  print('begun', flush=True)\n"
                    "  rollrig.run('iso_28580', tire='a50', measurement_cycles=100, measurement_min=600)\n"
                    "except KeyboardInterrupt:\n"
                    f"  print(rollrig.run('iso_28580', tire='a50', **{QUICK!r})['method'])\n")
-        started = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
-        started.stdout.readline()
-        time.sleep(0.5)
-        asked_s = time.monotonic()
-        started.send_signal(signal.SIGINT)
-        out, _ = started.communicate(timeout=60)
-        self.assertEqual(out, "torque\n")  # stopped, and ready for the next call
-        self.assertLess(time.monotonic() - asked_s, 20)  # the whole run takes longer
+        self.check_interrupted(program, "torque\n")  # stopped, and ready for the next call
 
     def test_let_other_threads_work(self):
         counted = 0
