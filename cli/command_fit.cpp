@@ -1,6 +1,7 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
+#include "cli/uncertain_result.h"
 #include "rollrig/fit.h"
 
 namespace rollrig::cli {
@@ -18,6 +19,7 @@ struct FitDrumCoastdownOptions {
   std::string data;
   OutputOptions output;
   BadRows bad_rows = BadRows::kRefuse;
+  UncertaintyOptions uncertainty;
 };
 
 int fit_tire_command(const FitTireOptions& options) {
@@ -36,8 +38,11 @@ int fit_tire_command(const FitTireOptions& options) {
 
 int fit_drum_coastdown_command(const FitDrumCoastdownOptions& options) {
   Output output(options.output);
-  const Report fit = fit_drum_coastdown(options.set, options.data, options.bad_rows);
-  output.show(fit);
+  output.show(make_uncertain("fit drum-coastdown", options.output, options.uncertainty,
+                             [&](const UncertaintyOptions& uncertainty, const Progress& progress) {
+                               return fit_drum_coastdown(options.set, options.data, options.bad_rows, uncertainty,
+                                                         progress);
+                             }));
   return kDone;
 }
 
@@ -50,6 +55,7 @@ void add_fit_drum_coastdown(CLI::App& fit, Action& action) {
   options->output.add_to(*command, "File for fit.json, - for standard output",
                          "Folder for fit.json, decelerations.csv, residuals.csv");
   add_skip_bad_rows(*command, options->bad_rows);
+  add_uncertainty_options(*command, options->uncertainty, true);
 }
 
 }  // namespace

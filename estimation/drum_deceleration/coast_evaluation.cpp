@@ -76,33 +76,10 @@ std::optional<Interval> calc_repeatability(const MeanOfRuns& mean) {
   return interval;
 }
 
-/// Slope of ln(net) over ln(p) through the levels, and what each level's ln(net) counts in it.
-struct PowerLaw {
-  double slope = 0.0;
-  std::vector<double> weights;
-  double residual_variance = 0.0;
-  double weights_squared = 0.0;
-};
-
-PowerLaw fit_power_law(const std::vector<PressureLevel>& levels, const std::vector<double>& net) {
-  const auto n = static_cast<double>(levels.size());
-  double mean_x = 0.0, mean_y = 0.0, spread = 0.0;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    mean_x += std::log(levels[i].pressure_Pa) / n;
-    mean_y += std::log(net[i]) / n;
-  }
-  for (const PressureLevel& level : levels) spread += std::pow(std::log(level.pressure_Pa) - mean_x, 2);
-  PowerLaw law;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    law.weights.push_back((std::log(levels[i].pressure_Pa) - mean_x) / spread);
-    law.slope += law.weights.back() * std::log(net[i]);
-    law.weights_squared += law.weights.back() * law.weights.back();
-  }
-  for (std::size_t i = 0; i < levels.size() && levels.size() > 2; ++i) {
-    const double rest = std::log(net[i]) - mean_y - law.slope * (std::log(levels[i].pressure_Pa) - mean_x);
-    law.residual_variance += rest * rest / (n - 2.0);
-  }
-  return law;
+std::vector<double> list_pressures(const SpeedPoint& point) {
+  std::vector<double> pressures_Pa;
+  for (const PressureLevel& level : point.levels) pressures_Pa.push_back(level.pressure_Pa);
+  return pressures_Pa;
 }
 
 /// Variance of ln(net) of the levels that runs at one pressure explain, mean over the levels.
@@ -123,7 +100,7 @@ void add_exponent(const Tables& tables, Eigen::Index speed, SpeedPoint& point) {
   for (const PressureLevel& level : point.levels) net.push_back(level.net_m_s2.value);
   const bool positive = std::all_of(net.begin(), net.end(), [](double value) { return value > 0.0; });
   if (net.size() < 2 || !positive) return;
-  const PowerLaw law = fit_power_law(point.levels, net);
+  const PowerLaw law = fit_power_law(list_pressures(point), net);
   const LoadedScatter scatter = calc_loaded_scatter(tables.loaded, tables.levels, speed);
   const VariancePart repeat = calc_repeat_part(tables, scatter, point);
   double by_shared = 0.0;  // of the slope by what all levels share
@@ -153,7 +130,7 @@ void add_mass_ratio_slope(const Tables& tables, Eigen::Index speed, SpeedPoint& 
   std::vector<double> net;
   for (const PressureLevel& level : point.levels) net.push_back(calc_net(more, level.loaded_m_s2, speed));
   if (std::any_of(net.begin(), net.end(), [](double value) { return value <= 0.0; })) return;
-  const double slope = fit_power_law(point.levels, net).slope;
+  const double slope = fit_power_law(list_pressures(point), net).slope;
   point.exponent_per_mass_ratio = (slope - point.pressure_exponent->value) / kStep;
 }
 
@@ -204,6 +181,27 @@ void add_directions(const CoastSet& set, const Tables& tables, Eigen::Index spee
 }
 
 }  // namespace
+
+PowerLaw fit_power_law(const std::vector<double>& pressures_Pa, const std::vector<double>& net_m_s2) {
+  const auto n = static_cast<double>(pressures_Pa.size());
+  double mean_x = 0.0, mean_y = 0.0, spread = 0.0;
+  for (std::size_t i = 0; i < pressures_Pa.size(); ++i) {
+    mean_x += std::log(pressures_Pa[i]) / n;
+    mean_y += std::log(net_m_s2[i]) / n;
+  }
+  for (const double pressure_Pa : pressures_Pa) spread += std::pow(std::log(pressure_Pa) - mean_x, 2);
+  PowerLaw law;
+  for (std::size_t i = 0; i < pressures_Pa.size(); ++i) {
+    law.weights.push_back((std::log(pressures_Pa[i]) - mean_x) / spread);
+    law.slope += law.weights.back() * std::log(net_m_s2[i]);
+    law.weights_squared += law.weights.back() * law.weights.back();
+  }
+  for (std::size_t i = 0; i < pressures_Pa.size() && pressures_Pa.size() > 2; ++i) {
+    const double rest = std::log(net_m_s2[i]) - mean_y - law.slope * (std::log(pressures_Pa[i]) - mean_x);
+    law.residual_variance += rest * rest / (n - 2.0);
+  }
+  return law;
+}
 
 Tables make_tables(const CoastSet& set, const DrumCoastdownFit& fit) {
   Tables tables{collect(set, fit.analyses, CoastState::kLoaded, CoastBody::kDrum),

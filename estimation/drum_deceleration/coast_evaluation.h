@@ -15,6 +15,15 @@ struct Tables {
 /// Tables of the fit's decelerations.
 Tables make_tables(const CoastSet& set, const DrumCoastdownFit& fit);
 
+/// Slope of ln(net) over ln(p) through the levels, and what each level's ln(net) counts in it.
+struct PowerLaw {
+  double slope = 0.0;
+  std::vector<double> weights;
+  double residual_variance = 0.0;
+  double weights_squared = 0.0;
+};
+PowerLaw fit_power_law(const std::vector<double>& pressures_Pa, const std::vector<double>& net_m_s2);
+
 /// Everything at one speed but the ratios.
 SpeedPoint evaluate_speed(const CoastSet& set, const Tables& tables, const DrumCoastdownFit& fit, std::size_t index);
 

@@ -43,9 +43,11 @@ RoadLoad fit_road_load(const std::string& file, const RoadLoadFitOptions& option
 
 /// Rolling resistance from coast-downs of a drum, by the deceleration method of ISO 28580
 /// (docs/fit_drum_coastdown.md). `set` is a .toml file, `data` the folder of its CSV files, empty: that of the set.
-/// Files of the report: fit.json, decelerations.csv, residuals.csv.
-/// Errors  InputError: a wrong file, no coast in a run; RunFailure: no speed at which loaded and lifted runs both pass
-Report fit_drum_coastdown(const std::string& set, const std::string& data = "", BadRows bad_rows = BadRows::kRefuse);
+/// Files of the report: fit.json, decelerations.csv, residuals.csv. The uncertainty is that at the reference speed.
+/// Errors  InputError: a wrong file, no coast in a run; of an uncertainty, no result at the reference speed.
+///         RunFailure: no speed at which loaded and lifted runs both pass
+Report fit_drum_coastdown(const std::string& set, const std::string& data = "", BadRows bad_rows = BadRows::kRefuse,
+                          const UncertaintyOptions& uncertainty = {}, const Progress& progress = {});
 
 }  // namespace rollrig
 #pragma GCC visibility pop
