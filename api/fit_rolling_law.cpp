@@ -177,6 +177,10 @@ RollingLaw fit_j1269(const std::string& path, const RollingLawOptions& options, 
   return law;
 }
 
+std::vector<std::string> list_fit_warnings(const std::string& fit_json) {
+  return exports::read_rolling_coefficients(fit_json).warnings;
+}
+
 std::string export_coefficients(const std::string& fit_json, CoefficientTarget target,
                                 const CoefficientOptions& options) {
   if (options.tire_radius_m.has_value()) require_within({"--tire-radius", 0.05, 2.0, "m"}, *options.tire_radius_m);

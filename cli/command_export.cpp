@@ -10,6 +10,7 @@
 #include "cli/output_files.h"
 #include "rollrig/export.h"
 #include "rollrig/fmu.h"
+#include "rollrig/rolling_law.h"
 #include "rollrig/vecto.h"
 #include "sim/core/columns.h"
 
@@ -50,9 +51,10 @@ int export_tire(const ExportOptions& options) {
 /// Paths and contents of the files, all made before one is written.
 std::vector<std::pair<std::string, std::string>> make_exports(const ExportOptions& options, std::string& warnings) {
   std::vector<std::pair<std::string, std::string>> files = options.coefficients.make(options.source);
+  if (!options.coefficients.are_empty()) warnings = format_warnings(list_fit_warnings(options.source));
   if (options.mat.empty() && options.hdf5.empty()) return files;
   const Export made = read_export(options.source, options.bad_rows);
-  warnings = format_warnings(made.warnings);
+  warnings += format_warnings(made.warnings);
   if (!options.mat.empty()) files.emplace_back(options.mat, made.make_mat());
   if (!options.hdf5.empty()) files.emplace_back(options.hdf5, made.make_hdf5());
   return files;

@@ -10,6 +10,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/parse_json.h"
+#include "sim/core/text.h"
 #include "sim/core/units.h"
 #include "sim/core/visible.h"
 
@@ -53,8 +54,12 @@ double calc_speed_share(const RollingCoefficients& at, double speed_m_s) {
 /// Where numbers come from, as the first lines of a file.
 std::string make_origin(const RollingCoefficients& at, const char* comment) {
   const std::string tire = at.tire.empty() ? "" : fmt::format("{} tire {}\n", comment, at.tire);
-  return fmt::format("{} Rolling resistance by SAE J2452, fitted by rollrig: F = P^alpha Z^beta (a + b v + c v^2)\n{}",
-                     comment, tire);
+  const std::string doubts = at.warnings.empty() ? ""
+                                                 : fmt::format("{} The fit has {}, in its fit.json\n", comment,
+                                                               format_count(at.warnings.size(), "warning"));
+  return fmt::format(
+      "{} Rolling resistance by SAE J2452, fitted by rollrig: F = P^alpha Z^beta (a + b v + c v^2)\n{}{}", comment,
+      tire, doubts);
 }
 
 std::string describe_condition(const RollingCoefficients& at) {
@@ -96,6 +101,10 @@ RollingCoefficients read_rolling_coefficients(const std::string& path) {
   result.high_m_s = high->speed_m_s;
   const Json tire = json.value("tire", Json());
   if (tire.is_string()) result.tire = show_on_one_line(tire.get<std::string>());
+  const Json warnings = json.value("warnings", Json::array());
+  for (const Json& warning : warnings) {
+    if (warning.is_string()) result.warnings.push_back(show_on_one_line(warning.get<std::string>()));
+  }
   if (!json.contains("reference")) return result;
   const auto number = [&](const char* key) {
     return unit_of_key(key).to_si(find_fit_number(json, {"reference", key}, result.path));

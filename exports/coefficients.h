@@ -21,6 +21,7 @@ struct RollingCoefficients {
   std::string cycles;    // over which it is the mean, in words
   double low_m_s = 0.0;  // range of the points' speeds
   double high_m_s = 0.0;
+  std::vector<std::string> warnings = {};  // of the fit
 
   /// Throws InputError where the fit has none.
   const estimation::ReferenceCondition& require_reference() const;

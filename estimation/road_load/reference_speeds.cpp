@@ -302,7 +302,8 @@ ReferencePrecision calc_precision(const std::vector<double>& values) {
   const Eigen::Map<const VectorXd> at(values.data(), static_cast<Index>(values.size()));
   precision.mean = at.mean();
   precision.sd = std::sqrt((at.array() - precision.mean).square().sum() / (n - 1.0));
-  precision.precision = calc_precision_coefficient(precision.pairs) * precision.sd / (std::sqrt(n) * std::abs(precision.mean));
+  precision.precision =
+      calc_precision_coefficient(precision.pairs) * precision.sd / (std::sqrt(n) * std::abs(precision.mean));
   return precision;
 }
 

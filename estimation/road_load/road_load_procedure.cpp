@@ -272,6 +272,8 @@ void doubt_units(RoadLoadProcedure& procedure) {
         "and units right?",
         rolling));
   }
+  const std::string doubt = doubt_drag_area(procedure.road_load(2), mass_kg);
+  if (!doubt.empty()) procedure.warnings.push_back(doubt);
   if (procedure.road_load(0) < 0.0 || procedure.road_load(2) < 0.0) {
     procedure.warnings.push_back("f0 or f2 is below 0: the data do not fit a vehicle that coasts freely");
   }

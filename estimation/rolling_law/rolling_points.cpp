@@ -126,19 +126,24 @@ std::size_t count_copies(const std::vector<RollingPoint>& points) {
   return points.size() - seen.size();
 }
 
+double calc_median_coefficient(const std::vector<RollingPoint>& points) {
+  std::vector<double> coefficients;
+  for (const RollingPoint& point : points) coefficients.push_back(point.force_N / point.load_N);
+  const auto middle = coefficients.begin() + static_cast<std::ptrdiff_t>(coefficients.size() / 2);
+  std::nth_element(coefficients.begin(), middle, coefficients.end());
+  return *middle;
+}
+
 }  // namespace
 
 void require_plausible_coefficient(const std::string& path, const std::vector<RollingPoint>& points) {
   constexpr double kLeast = 2.5e-3;  // Assumed: below it is no road tire; the best have 4 N/kN
   constexpr double kMost = 30e-3;    // Assumed: of a cold tire at low pressure
   if (points.empty()) return;
-  std::vector<double> coefficients;
-  for (const RollingPoint& point : points) coefficients.push_back(point.force_N / point.load_N);
-  const auto middle = coefficients.begin() + static_cast<std::ptrdiff_t>(coefficients.size() / 2);
-  std::nth_element(coefficients.begin(), middle, coefficients.end());
-  if (*middle >= kLeast && *middle <= kMost) return;
+  const double middle = calc_median_coefficient(points);
+  if (middle >= kLeast && middle <= kMost) return;
   throw InputError({"rolling resistance over load is that of no tire: are both in N?", path, 0, "rolling_resistance_N",
-                    fmt::format("{:.3g} N/kN, the median of rolling_resistance_N / load_N", 1e3 * *middle),
+                    fmt::format("{:.3g} N/kN, the median of rolling_resistance_N / load_N", 1e3 * middle),
                     fmt::format("{:g} to {:g} N/kN; tires have 4 to 15", 1e3 * kLeast, 1e3 * kMost), ""});
 }
 
@@ -146,6 +151,14 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
   constexpr double kMostCopies = 0.2;  // Assumed: of coarsely rounded readings, fewer agree by chance
   if (points.empty()) return {};
   std::vector<std::string> doubts;
+  constexpr double kBest = 3.5e-3;  // Assumed: the best tires have 4 N/kN (class A of C3); 15 N/kN in lbf are 3.4
+  const double coefficient = calc_median_coefficient(points);
+  if (coefficient < kBest) {
+    doubts.push_back(
+        fmt::format("rolling resistance over load is {:.2g} N/kN (median), less than that of the best tires, 4: is the "
+                    "force in lbf and not in N?",
+                    1e3 * coefficient));
+  }
   const std::size_t copies = count_copies(points);
   if (static_cast<double>(copies) > kMostCopies * static_cast<double>(points.size())) {
     doubts.push_back(

@@ -51,8 +51,8 @@ struct RollingTest {
 /// Checked  tests/estimation/rolling_law_test.cpp, tests/bad_input
 RollingTest read_rolling_test(const std::string& path, PressureTaken taken = PressureTaken::kSet);
 
-/// Throws InputError where the median coefficient of rolling resistance is that of no tire: one of the two columns is in
-/// another unit, such as kgf.
+/// Throws InputError where the median coefficient of rolling resistance is that of no tire: one of the two columns is
+/// in another unit, such as kgf.
 void require_plausible_coefficient(const std::string& path, const std::vector<RollingPoint>& points);
 
 /// Doubts that hold for each of the fits: points that are copies of others.

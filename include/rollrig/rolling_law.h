@@ -48,6 +48,9 @@ struct CoefficientOptions {
   int tires = 4;                        // that share f0, f1, f2
 };
 
+/// The warnings of a fit of fit_j2452, from its fit.json. Throws InputError: another document.
+std::vector<std::string> list_fit_warnings(const std::string& fit_json);
+
 /// The file of another program from fit.json of fit_j2452. Content of the files: docs/fit_j2452.md.
 /// Errors  InputError: another document, no reference condition, a radius that is missing
 std::string export_coefficients(const std::string& fit_json, CoefficientTarget target,

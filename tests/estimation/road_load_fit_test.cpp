@@ -51,6 +51,13 @@ bool warns_of(const RoadLoadFit& fit, const std::string& words) {
 
 }  // namespace
 
+TEST_CASE("a mass that is wrong by a factor of ten is doubted by the drag area", "[fast]") {
+  const CoastdownData data = simulate_coastdowns(without_noise(), 1);
+  CHECK(!warns_of(fit_road_load(data, with_mass()), "drag area"));
+  CHECK(warns_of(fit_road_load(data, with_mass(210.0)), "is 210 kg right?"));
+  CHECK(warns_of(fit_road_load(data, with_mass(60000.0)), "drag area"));
+}
+
 TEST_CASE("a coastdown without noise gives its road load back, whatever the sampling and the end", "[fast]") {
   for (const double interval_s : {0.1, 1.0}) {
     for (const double to_km_h : {15.0, 0.0}) {

@@ -202,6 +202,15 @@ TEST_CASE("a coefficient that no tire has is refused: units", "[fast]") {
   }
 }
 
+TEST_CASE("forces in lbf of a tire with a high coefficient are doubted aloud", "[fast]") {
+  std::vector<RollingPoint> points = make_points();
+  CHECK(estimation::doubt_points(points).empty());
+  for (RollingPoint& point : points) point.force_N = 14e-3 * point.load_N / 4.448;
+  CHECK_NOTHROW(estimation::require_plausible_coefficient("test.csv", points));
+  REQUIRE(estimation::doubt_points(points).size() == 1);
+  CHECK_THAT(estimation::doubt_points(points)[0], Catch::Contains("lbf"));
+}
+
 TEST_CASE("points that were copied are doubted aloud, a few that agree by chance are not", "[fast]") {
   std::vector<RollingPoint> points = make_points();
   points.push_back(points.front());

@@ -21,7 +21,8 @@ constexpr double kLoad_N = 4200.0;
 constexpr double kPressure_Pa = 260e3;
 
 /// A fit's document as the program writes it, and the coefficients read back from it.
-exports::RollingCoefficients make_coefficients(bool with_reference = true) {
+exports::RollingCoefficients make_coefficients(bool with_reference = true,
+                                               const std::vector<std::string>& warnings = {}) {
   estimation::RollingTest test;
   test.tire = "a50";
   for (const double load_N : {2000.0, 6000.0}) {
@@ -42,6 +43,7 @@ exports::RollingCoefficients make_coefficients(bool with_reference = true) {
                                                {"udds", "hwfet", moments("udds"), moments("hwfet")});
   }
   const tests::TemporaryFolder folder;
+  test.warnings = warnings;
   tests::write_file(folder.file("fit.json"), to_text(estimation::make_j2452_json(test, fit, reference)));
   return exports::read_rolling_coefficients(folder.path());
 }
@@ -64,6 +66,15 @@ TEST_CASE("a fit's document gives its law back", "[fast]") {
   CHECK(read.reference->load_N == Approx(kLoad_N));
   CHECK(read.reference->pressure_Pa == Approx(kPressure_Pa));
   CHECK(read.law.calc_force_N(230e3, 3000.0, 20.0) == Approx(kLaw.calc_force_N(230e3, 3000.0, 20.0)).epsilon(1e-6));
+}
+
+TEST_CASE("coefficients of a fit with warnings say so", "[fast]") {
+  CHECK(make_coefficients().warnings.empty());
+  CHECK_THAT(exports::make_simscape(make_coefficients()), !Catch::Contains("warning"));
+  const exports::RollingCoefficients doubted = make_coefficients(true, {"the force may be in lbf"});
+  CHECK(doubted.warnings == std::vector<std::string>{"the force may be in lbf"});
+  CHECK_THAT(exports::make_simscape(doubted), Catch::Contains("% The fit has 1 warning, in its fit.json"));
+  CHECK_THAT(exports::make_tir(doubted, 0.32), Catch::Contains("! : The fit has 1 warning"));
 }
 
 TEST_CASE("the .tir file, read by the reader of .tir files, has the force of the law", "[fast]") {
