@@ -1,6 +1,7 @@
 #include "rollrig/diagnose.h"
 
 #include "api/data.h"
+#include "api/fleet_items.h"
 #include "api/option_range.h"
 #include "diagnosis/next_test/plan_files.h"
 #include "diagnosis/output/diagnosis_json.h"
@@ -10,6 +11,7 @@
 #include "diagnosis/terms/term.h"
 #include "measurements/run_rows.h"
 #include "report/diagnosis_page.h"
+#include "rollrig/version.h"
 
 namespace rollrig {
 namespace {
@@ -40,7 +42,10 @@ FleetDiagnosis diagnose_fleet(const std::vector<std::string>& folders, const Dia
   if (folders.empty())
     throw InputError({"there is no set to diagnose", "", 0, "", "", "the folder of one set at least", ""});
   require_valid(options);
-  const auto fleet = std::make_shared<const diagnosis::Fleet>(diagnosis::diagnose_fleet(folders, options, bad_rows));
+  const FleetItems items(folders, options, bad_rows);
+  const campaigns::CampaignFolder nowhere{"", library_version(), 0};  // the results go into no file
+  campaigns::carry_out_all(items, nowhere, options.threads, [](const campaigns::Record&) {});
+  const auto fleet = std::make_shared<const diagnosis::Fleet>(items.make_fleet());
   FleetDiagnosis result;
   result.members = fleet->members;
   result.text = diagnosis::format_fleet(*fleet);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 
 #include "api/option_range.h"
 #include "api/regression_items.h"
@@ -70,13 +69,11 @@ std::vector<RegressedRun> carry_out_runs(const std::string& folder, const std::v
                                          const RegressionOptions& options) {
   const RegressionItems items(folder, names);
   const campaigns::CampaignFolder nowhere{"", library_version(), 0};  // the results go into no file
-  std::vector<std::size_t> all(items.count());
-  std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<RegressedRun> runs(items.count());
   const auto add = [&](const campaigns::Record& record) {
     runs[record.item] = read_comparison(names[record.item], record.result);
   };
-  campaigns::carry_out_each(items, nowhere, all, options.threads, add, [&](double share) {
+  campaigns::carry_out_all(items, nowhere, options.threads, add, [&](double share) {
     if (options.progress) options.progress(share, "");
   });
   return runs;

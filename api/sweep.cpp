@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <numeric>
 
 #include "api/data.h"
 #include "api/option_range.h"
@@ -225,9 +224,7 @@ std::vector<campaigns::Record> carry_out_points(const SweepItems& items, std::ui
   const auto add = [&records](const campaigns::Record& record) { records.at(record.item) = record; };
   if (input.unfinished_folder.empty() ||
       !is_there(input.unfinished_folder)) {  // after remove_unfinished(), nothing is saved
-    std::vector<std::size_t> all(items.count());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    campaigns::carry_out_each(items, folder, all, input.threads, add, advance);
+    campaigns::carry_out_all(items, folder, input.threads, add, advance);
   } else {
     campaigns::carry_out_items(items, folder, {1, 1}, input.threads, advance);
     campaigns::read_records(folder.list_files(), folder.definition, add);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <numeric>
 #include <regex>
 #include <set>
 
@@ -84,26 +85,28 @@ struct DoneItems {
   void add(const CampaignFolder& folder, const std::string& file) {
     read_items(file, folder.definition, [&](std::size_t item, bool failed) { add(file, item, failed); });
   }
-  /// The same, unless a process writes the file now: returns false then.
-  bool try_add(const CampaignFolder& folder, const std::string& file) {
-    if (is_in_use(file)) return false;  // sooner than the file is waited for
-    try {
-      add(folder, file);
-      return true;
-    } catch (const FileInUse&) {
-      return false;
+  /// The same of those files that no process writes now. Returns the others.
+  std::vector<std::string> add_closed(const CampaignFolder& folder, const std::vector<std::string>& files) {
+    std::vector<std::string> in_use = list_in_use(files);  // sooner than each of them is waited for
+    for (const std::string& file : files) {
+      if (std::find(in_use.begin(), in_use.end(), file) != in_use.end()) continue;
+      try {
+        add(folder, file);
+      } catch (const FileInUse&) {  // since a moment
+        in_use.push_back(file);
+      }
     }
+    return in_use;
   }
 
   /// Of a part alone, as the next one: every sixteenth item, then their successors, and so on. In a grid, the factor on
   /// which the time of an item depends may change once; so a tenth of the work tells the time of the rest nevertheless.
-  /// Many items are carried out in their order, since SQLite takes longer to insert them in another.
   std::vector<std::size_t> list_open(const Part& part) const {
-    constexpr std::size_t kMany = 20000;  // Assumed: 10^5 items take a sixth longer in sixteen passes
-    const std::size_t passes = is_done.size() < kMany ? 16 : 1;
+    constexpr std::size_t kPasses = 16;
     std::vector<std::size_t> open;
-    for (std::size_t pass = 0; pass < passes; ++pass) {
-      for (std::size_t item = part.number - 1 + pass * part.count; item < is_done.size(); item += passes * part.count) {
+    for (std::size_t pass = 0; pass < kPasses; ++pass) {
+      for (std::size_t item = part.number - 1 + pass * part.count; item < is_done.size();
+           item += kPasses * part.count) {
         if (!is_done[item]) open.push_back(item);
       }
     }
@@ -199,8 +202,11 @@ class ResultsFile::Progress {
   std::chrono::steady_clock::time_point next_;
 };
 
-ResultsFile::ResultsFile(const std::string& path, const CampaignFolder& folder) : store_(path, folder.definition) {
-  store_.list_items([this](std::size_t, bool has_failed) { tally_.add(has_failed); });
+ResultsFile::ResultsFile(const std::string& path, const CampaignFolder& folder, const std::vector<bool>& is_elsewhere)
+    : store_(path, folder.definition) {
+  store_.list_items([&](std::size_t item, bool has_failed) {
+    if (item >= is_elsewhere.size() || !is_elsewhere[item]) tally_.add(has_failed);
+  });
   progress_ = std::make_unique<Progress>(progress_file_of(path), tally_);
 }
 
@@ -232,6 +238,13 @@ void carry_out_each(const ItemList& list, const CampaignFolder& folder, const st
   });
 }
 
+void carry_out_all(const ItemList& list, const CampaignFolder& folder, int threads,
+                   const std::function<void(const Record&)>& visit, const std::function<void(double)>& advance) {
+  std::vector<std::size_t> all(list.count());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  carry_out_each(list, folder, all, threads, visit, advance);
+}
+
 OpenItems find_open_items(const ItemList& list, const CampaignFolder& folder) {
   DoneItems done(list.count());
   for (const std::string& file : folder.list_files()) done.add(folder, file);
@@ -241,11 +254,11 @@ OpenItems find_open_items(const ItemList& list, const CampaignFolder& folder) {
 Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Part& part, int threads,
                       const std::function<void(double)>& advance) {
   DoneItems done(list.count());
-  for (const std::string& file : list_files_of_other_divisions(folder, part)) done.try_add(folder, file);
+  done.add_closed(folder, list_files_of_other_divisions(folder, part));
   const std::string path = folder.file_of(part);
   Tally tally = done.count(part);
   if (tally.done == tally.items && !is_there(path)) return tally;
-  ResultsFile file(path, folder);
+  ResultsFile file(path, folder, done.is_done);
   file.list_items([&](std::size_t item, bool has_failed) { done.add(path, item, has_failed); });
   tally = done.count(part);
   const auto write = [&](const Record& record) {
@@ -265,9 +278,7 @@ void remove_progress(const std::string& results) {
 FolderState read_state(const CampaignFolder& folder, std::size_t items) {
   FolderState state;
   DoneItems done(items);
-  for (const std::string& file : folder.list_files()) {
-    if (!done.try_add(folder, file)) state.running.push_back(file);
-  }
+  state.running = done.add_closed(folder, folder.list_files());
   state.tally = done.count({1, 1});
   for (const std::string& file : state.running) {
     const Tally said = read_progress(file);

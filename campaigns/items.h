@@ -77,6 +77,10 @@ void carry_out_each(const ItemList& list, const CampaignFolder& folder, const st
                     int threads, const std::function<void(const Record&)>& visit,
                     const std::function<void(double)>& advance = {});
 
+/// The same of all items of the list.
+void carry_out_all(const ItemList& list, const CampaignFolder& folder, int threads,
+                   const std::function<void(const Record&)>& visit, const std::function<void(double)>& advance = {});
+
 /// The items that no file of the folder has, and how many there are that one has. Throws InputError where a process
 /// writes one of the files.
 struct OpenItems {
@@ -88,8 +92,9 @@ OpenItems find_open_items(const ItemList& list, const CampaignFolder& folder);
 /// The file of results of this process, and the file beside it that tells other processes how many items are done.
 class ResultsFile {
  public:
-  /// Throws InputError as Store does.
-  ResultsFile(const std::string& path, const CampaignFolder& folder);
+  /// `is_elsewhere` says which items other files have, which are not to be counted twice: after a merge that was cut
+  /// short, for example. Throws InputError as Store does.
+  ResultsFile(const std::string& path, const CampaignFolder& folder, const std::vector<bool>& is_elsewhere = {});
   ~ResultsFile();
   ResultsFile(const ResultsFile&) = delete;
   ResultsFile& operator=(const ResultsFile&) = delete;

@@ -4,35 +4,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <mutex>
-#include <numeric>
 
 #include "diagnosis/output/diagnosis_json.h"
 #include "diagnosis/output/summary.h"
 #include "sim/core/error.h"
-#include "sim/core/parallel.h"
 #include "sim/core/text.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string machine_of(const measurements::MeasurementSet& set) { return set.rig ? set.rig->name : set.vehicle->name; }
-
-/// The set of a member; what is wrong with it goes into the member.
-std::optional<measurements::MeasurementSet> read_member(FleetMember& member, BadRows bad_rows) {
-  try {
-    measurements::MeasurementSet set = measurements::read_measurement_set(member.folder, bad_rows);
-    member.machine = machine_of(set);
-    member.tire = set.tire.name;
-    return set;
-  } catch (const InputError& error) {
-    member.failure = error.what();
-    member.problem = error.problem();
-    return std::nullopt;
-  }
-}
 
 std::string name_of(const FleetMember& member) { return fs::path(member.folder).filename().string(); }
 
@@ -83,40 +64,7 @@ std::string describe_recurrence(const Recurrence& one) {
 
 }  // namespace
 
-Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options, BadRows bad_rows) {
-  require_valid_options(options);
-  Fleet fleet;
-  std::vector<std::optional<measurements::MeasurementSet>> sets;
-  for (const std::string& folder : folders) {
-    fleet.members.push_back({folder, "", "", std::nullopt, "", std::nullopt});
-    sets.push_back(read_member(fleet.members.back(), bad_rows));
-  }
-  if (std::none_of(sets.begin(), sets.end(), [](const auto& set) { return set.has_value(); })) {
-    measurements::read_measurement_set(folders.front(), bad_rows);  // says what is wrong with it
-  }
-  std::mutex mutex;
-  std::vector<double> done(folders.size());
-  parallel_for(folders.size(), options.threads, [&](std::size_t i) {
-    DiagnosisOptions one = options;
-    one.threads = 1;
-    one.progress = [&, i](double share, const std::string&) {
-      const std::lock_guard<std::mutex> lock(mutex);
-      done[i] = std::max(done[i], share);
-      const double sum = std::accumulate(done.begin(), done.end(), 0.0);
-      if (options.progress) options.progress(sum / static_cast<double>(done.size()), format_count(done.size(), "set"));
-    };
-    try {
-      if (sets[i].has_value()) fleet.members[i].findings = diagnose(*sets[i], one);
-    } catch (const RunFailure& failure) {
-      fleet.members[i].failure = failure.what();
-    } catch (const InputError& error) {  // what a diagnosis cannot do with: a sensor without noise, say
-      fleet.members[i].failure = error.what();
-      fleet.members[i].problem = error.problem();
-    }
-  });
-  fleet.recurrences = find_recurrences(fleet.members);
-  return fleet;
-}
+std::string machine_of(const measurements::MeasurementSet& set) { return set.rig ? set.rig->name : set.vehicle->name; }
 
 Json diagnose_member(const std::string& folder, const DiagnosisOptions& options, BadRows bad_rows) {
   const measurements::MeasurementSet set = measurements::read_measurement_set(folder, bad_rows);

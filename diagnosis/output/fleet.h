@@ -49,11 +49,8 @@ struct Fleet {
   std::vector<Json> documents = {};  // as many as members, their diagnoses as a campaign has stored them; else none
 };
 
-/// Diagnoses every set of a folder, several at a time. A set that cannot be read and a diagnosis that fails are noted,
-/// and the others go on.
-/// Errors  InputError: no set can be read; an unknown effect in `options`
-Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options,
-                     BadRows bad_rows = BadRows::kRefuse);
+/// The machine of a set: its rig or, on the road, its vehicle.
+std::string machine_of(const measurements::MeasurementSet& set);
 
 /// The diagnosis of one set as a campaign stores it: `machine`, `tire`, `doubt`, `diagnosis` (rollrig-diagnosis/1).
 /// Errors  InputError: the set cannot be read or diagnosed. RunFailure

@@ -1,6 +1,5 @@
 #include "validation/program/made_items.h"
 
-#include <numeric>
 #include <utility>
 
 #include "campaigns/items.h"
@@ -32,14 +31,12 @@ generator::MakeItems make_by_campaign(int threads, cli::ProgressLine& line, std:
                                                   const std::function<void(const Json&)>& take) {
     const MadeItems items(count, make);
     const campaigns::CampaignFolder nowhere{"", hash_program(), 0};  // the results go into no file of a campaign
-    std::vector<std::size_t> all(count);
-    std::iota(all.begin(), all.end(), std::size_t{0});
     const auto visit = [&take](const campaigns::Record& record) {
       if (!record.failure.empty()) throw RunFailure(record.failure);
       take(Json::parse(record.result));
     };
-    campaigns::carry_out_each(items, nowhere, all, threads, visit,
-                              [&](double share_done) { line.update(share_done, what); });
+    campaigns::carry_out_all(items, nowhere, threads, visit,
+                             [&](double share_done) { line.update(share_done, what); });
   };
 }
 
