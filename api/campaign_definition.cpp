@@ -213,6 +213,7 @@ std::vector<std::string> campaign_designs() { return campaigns::design_names(); 
 
 std::string CampaignDefinition::to_text() const {
   Json json{{"format", kCampaignFormat}, {"rollrig", version}};
+  if (!sources.empty()) json["sources"] = sources;
   if (diagnosis.has_value()) {
     json["diagnosis"] = write_diagnosis(*diagnosis);
   } else {
@@ -255,6 +256,7 @@ CampaignDefinition CampaignDefinition::read(const std::string& content, const st
                         kCampaignFormat, ""});
     }
     definition.version = json.at("rollrig").get<std::string>();
+    definition.sources = json.value("sources", "");
     for (const Json& file : json.at("files")) definition.files.push_back({file.at("path"), file.at("sha256")});
     if (json.contains("diagnosis")) {
       definition.diagnosis = read_diagnosis(json["diagnosis"]);
@@ -335,8 +337,10 @@ CampaignDefinition make_definition(const RunCampaignInput& input) {
   require_list_alone(input);
   CampaignDefinition definition;
   definition.version = library_version();
+  definition.sources = library_sources();
   definition.run = input.run;
   definition.run.seed.clear();
+  definition.list = input.list;
   for (std::string* name : {&definition.run.scenario_or_file, &definition.run.tire, &definition.run.rig,
                             &definition.run.vehicle, &definition.run.sensors}) {
     *name = absolute_if_path(*name);
@@ -377,6 +381,7 @@ CampaignDefinition make_definition(const RunCampaignInput& input) {
 CampaignDefinition make_definition(const DiagnosisCampaignInput& input) {
   CampaignDefinition definition;
   definition.version = library_version();
+  definition.sources = library_sources();
   definition.diagnosis = input;
   for (std::string& set : definition.diagnosis->sets) {
     set = fs::absolute(set).lexically_normal().string();
@@ -385,8 +390,16 @@ CampaignDefinition make_definition(const DiagnosisCampaignInput& input) {
   return definition;
 }
 
-void require_same_version(const CampaignDefinition& definition, const std::string& path) {
-  if (definition.version == library_version()) return;
+void require_same_program(const CampaignDefinition& definition, const std::string& path) {
+  if (definition.version == library_version()) {
+    if (definition.sources.empty() || definition.sources == library_sources()) return;
+    throw InputError(
+        {fmt::format("the campaign was begun with other sources of rollrig {}; its results could differ "
+                     "from those of this program",
+                     definition.version),
+         path, 0, "sources", definition.sources,
+         fmt::format("the program of these sources, or a new campaign; this program has {}", library_sources()), ""});
+  }
   throw InputError({fmt::format("the campaign was begun with rollrig {}; its results could differ from those of "
                                 "rollrig {}",
                                 definition.version, library_version()),

@@ -22,10 +22,12 @@ struct CampaignFile {
 
 struct CampaignDefinition {
   std::string version;  // of rollrig
+  std::string sources;  // as library_sources() says it; empty in a campaign of a rollrig that did not say it
   std::vector<CampaignFile> files;
   RunInput run;  // without what differs; paths are absolute
   campaigns::DesignInput design;
   std::optional<DiagnosisCampaignInput> diagnosis;  // instead of runs; paths are absolute
+  std::string list;                                 // the file of a list as it was given, for messages; not stored
 
   std::uint64_t seed() const { return diagnosis.has_value() ? 1 : design.seed; }  // a diagnosis draws nothing by it
 
@@ -39,8 +41,8 @@ struct CampaignDefinition {
 CampaignDefinition make_definition(const RunCampaignInput& input);
 CampaignDefinition make_definition(const DiagnosisCampaignInput& input);
 
-/// Throws InputError where the program is of another version. `path` is for messages.
-void require_same_version(const CampaignDefinition& definition, const std::string& path);
+/// Throws InputError where the program is of another version or has other sources. `path` is for messages.
+void require_same_program(const CampaignDefinition& definition, const std::string& path);
 
 /// Whether the files of a campaign are what they were.
 class FileWatch {

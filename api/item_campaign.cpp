@@ -54,8 +54,10 @@ CampaignPart read_campaign_part(const std::string& text) { return from_part(camp
 
 namespace {
 
+const char* get_variable(const char* name) { return std::getenv(name); }
+
 std::optional<CampaignPart> from_environment(std::optional<campaigns::Part> (*find)(const campaigns::Environment&)) {
-  const auto part = find([](const char* name) -> const char* { return std::getenv(name); });
+  const auto part = find(get_variable);
   if (!part.has_value()) return std::nullopt;
   return from_part(*part);
 }
@@ -64,6 +66,7 @@ std::optional<CampaignPart> from_environment(std::optional<campaigns::Part> (*fi
 
 std::optional<CampaignPart> find_campaign_part() { return from_environment(campaigns::find_part); }
 std::optional<CampaignPart> find_launched_part() { return from_environment(campaigns::find_process_part); }
+bool is_array_task() { return campaigns::is_array_task(get_variable); }
 
 namespace {
 

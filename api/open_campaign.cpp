@@ -24,7 +24,7 @@ std::vector<std::string> OpenCampaign::list_filled_files() const {
 }
 
 std::unique_ptr<CampaignItems> OpenCampaign::make_watched_items() const {
-  require_same_version(definition, path_of_definition());
+  require_same_program(definition, path_of_definition());
   std::unique_ptr<CampaignItems> watched = make_items(definition);
   watched->watch_files(definition.files);
   const fs::path assets = fs::path(find_assets_folder()).lexically_normal();

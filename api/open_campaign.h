@@ -19,7 +19,7 @@ struct OpenCampaign {
   std::string path_of_definition() const;
   /// All files of results. Throws InputError where there is none.
   std::vector<std::string> list_filled_files() const;
-  /// Items that can be carried out. Throws InputError where the version of rollrig or a file has changed.
+  /// Items that can be carried out. Throws InputError where rollrig or a file has changed.
   std::unique_ptr<CampaignItems> make_watched_items() const;
 };
 

@@ -1,6 +1,9 @@
 #include "api/run_items.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "api/data.h"
@@ -32,10 +35,25 @@ void set_factor(const std::string& key, const std::string& value, RunInput& run)
   }
 }
 
+bool is_of_factor(const InputError& error, const std::string& key) {
+  const InputProblem& problem = error.problem();
+  if (problem.file == "command line") return key == kTireFactor && problem.key == kTireFactor;
+  const std::string last = key.substr(key.rfind('.') + 1);
+  const std::size_t place = problem.key.size() - std::min(problem.key.size(), last.size());
+  return problem.file == "--set" && problem.key.substr(place) == last;  // "[settings] load_N"
+}
+
+void throw_of_option(const InputError& error, const char* option) {
+  InputProblem problem = error.problem();
+  problem.file = option;
+  throw InputError(problem);
+}
+
 RunItems::RunItems(const CampaignDefinition& definition)
     : run_(definition.run),
       factors_(definition.design.factors),
       is_list_(definition.design.name == campaigns::kList),
+      list_(definition.list),
       design_(campaigns::make_design(definition.design)) {}
 
 std::vector<std::string> RunItems::list_keys() const {
@@ -97,14 +115,62 @@ void RunItems::carry_out_words() const {
   }
 }
 
-void RunItems::check_at(const std::vector<std::string>& values) const {
+void RunItems::prepare(const std::vector<std::string>& values) const {
   const scenarios::RunSpec spec = read(values, 1);
   scenarios::prepare_run(spec);
 }
 
+void RunItems::check_at(const std::vector<std::string>& values) const {
+  try {
+    prepare(values);
+  } catch (const InputError& error) {
+    for (const campaigns::Factor& factor : factors_) {
+      const char* option = factor.kind == campaigns::Factor::Kind::kValues ? "--vary" : "--draw";
+      if (is_of_factor(error, factor.key)) throw_of_option(error, option);
+    }
+    throw;
+  }
+}
+
 void RunItems::check_list() const {
   for (std::size_t item = 0; item < count(); ++item) {
-    if (count() <= kMostChecked || item == 0 || item + 1 == count()) check_at(calc_values(item));
+    if (count() > kMostChecked && item > 0 && item + 1 < count()) continue;
+    try {
+      prepare(calc_values(item));
+    } catch (const InputError& error) {
+      const auto has_key = [&error](const campaigns::Factor& factor) { return is_of_factor(error, factor.key); };
+      if (list_.empty() || std::none_of(factors_.begin(), factors_.end(), has_key)) throw;
+      InputProblem problem = error.problem();
+      problem.file = list_;
+      problem.line = static_cast<int>(item) + 2;  // below the header
+      throw InputError(problem);
+    }
+  }
+}
+
+void RunItems::check_draws() const {
+  for (std::size_t f = 0; f < factors_.size(); ++f) {
+    if (factors_[f].kind == campaigns::Factor::Kind::kValues) continue;
+    const auto can_be = [&](double number) {
+      std::vector<std::string> values = find_usual_values();
+      values[f] = fmt::format("{}", number);
+      try {
+        prepare(values);
+        return true;
+      } catch (const InputError&) {
+        return false;
+      }
+    };
+    const auto is_refused_as_fraction = [&](double probability) {
+      const double drawn = parse_number(factors_[f].calc_value(probability)).value_or(0.0);
+      return !can_be(drawn) && can_be(std::round(drawn));
+    };
+    if (!is_refused_as_fraction(0.41) || !is_refused_as_fraction(0.57)) continue;
+    throw InputError({fmt::format("'{}' takes whole numbers, and draws are others", factors_[f].key), "command line", 0,
+                      "--draw", factors_[f].key,
+                      fmt::format("--vary {}=1,2,3 (as needed), whose values are equally likely in a design that draws",
+                                  factors_[f].key),
+                      ""});
   }
 }
 
@@ -124,6 +190,7 @@ CampaignItems::Check RunItems::check() const {
   if (is_list_) {
     check_list();
   } else {
+    check_draws();
     check_combinations();
   }
   check_briefly(false);

@@ -20,6 +20,11 @@ constexpr const char* kTireFactor = "tire";
 /// Sets a factor of a sweep or a campaign: the tire, or a setting.
 void set_factor(const std::string& key, const std::string& value, RunInput& run);
 
+/// Whether an error of a run is about the value of a factor, which set_factor() has set.
+bool is_of_factor(const InputError& error, const std::string& key);
+/// Throws the error as one of the option by which the factor was given.
+[[noreturn]] void throw_of_option(const InputError& error, const char* option);
+
 class RunItems : public CampaignItems {
  public:
   /// Throws InputError for a design that cannot be made.
@@ -45,17 +50,23 @@ class RunItems : public CampaignItems {
   scenarios::RunSpec read(const std::vector<std::string>& values, std::uint64_t seed) const;
   /// Of a list its first item, else the median of each factor: of draws, an item itself may be one that fails.
   std::vector<std::string> find_usual_values() const;
+  /// Reads and prepares a run.
+  void prepare(const std::vector<std::string>& values) const;
+  /// As prepare(); what is wrong with a factor is told of its option.
   void check_at(const std::vector<std::string>& values) const;
   /// A run for every value that is a word, such as the name of a tire or of a method: each may have a file read.
   void carry_out_words() const;
-  /// Of a list, whose values belong together.
+  /// Of a list, whose values belong together. What is wrong with a setting of a row is told with the row.
   void check_list() const;
+  /// Throws InputError where a factor is drawn and its setting takes whole numbers alone.
+  void check_draws() const;
   /// Of a design in which every value may meet every other.
   void check_combinations() const;
 
   RunInput run_;
   std::vector<campaigns::Factor> factors_;
   bool is_list_;
+  std::string list_;  // its file, for messages; empty where the campaign was begun in another session
   std::unique_ptr<campaigns::Design> design_;
   scenarios::ResultFlattener flattener_;
 };

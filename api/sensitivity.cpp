@@ -27,12 +27,27 @@ std::vector<std::size_t> order_by(const std::vector<campaigns::Index>& indices) 
   return order;
 }
 
+/// Of a design's points, those that do not count.
+std::string describe_left_out(std::size_t left_out, const campaigns::DesignInput& design) {
+  if (left_out == 0) return "";
+  return fmt::format(
+      " {} of {} points are left out, because an item of each failed, lacks this result or is not done: if "
+      "these are no accidents, the numbers hold for a part of the range only.",
+      left_out, design.points);
+}
+
 }  // namespace
 
 Sensitivity describe_indices(const std::string& result, const campaigns::DesignInput& design,
                              const campaigns::SobolIndices& indices) {
-  Json json{{"format", "rollrig-sensitivity/1"}, {"result", result},     {"design", design.name},
-            {"points", indices.points},          {"mean", indices.mean}, {"sd", std::sqrt(indices.variance)},
+  const std::size_t left_out = design.points - indices.points;
+  Json json{{"format", "rollrig-sensitivity/1"},
+            {"result", result},
+            {"design", design.name},
+            {"points", indices.points},
+            {"points_left_out", left_out},
+            {"mean", indices.mean},
+            {"sd", std::sqrt(indices.variance)},
             {"factors", Json::array()}};
   Table table{fmt::format("Sobol' indices of {}", result), {"factor", "alone", "with interactions"}, {}};
   const std::vector<std::size_t> order = order_by(indices.total);
@@ -44,17 +59,20 @@ Sensitivity describe_indices(const std::string& result, const campaigns::DesignI
   }
   return {json, table,
           fmt::format("Shares of the variance of {}, with intervals of 95 % from {} points. Mean {:.5g}, standard "
-                      "deviation {:.3g}.",
-                      result, indices.points, indices.mean, std::sqrt(indices.variance)),
+                      "deviation {:.3g}.{}",
+                      result, indices.points, indices.mean, std::sqrt(indices.variance),
+                      describe_left_out(left_out, design)),
           order};
 }
 
 Sensitivity describe_effects(const std::string& result, const campaigns::DesignInput& design,
                              const campaigns::MorrisMeasures& measures) {
+  const std::size_t left_out = design.points - measures.points;
   Json json{{"format", "rollrig-sensitivity/1"},
             {"result", result},
             {"design", design.name},
             {"points", measures.points},
+            {"points_left_out", left_out},
             {"factors", Json::array()}};
   Table table{fmt::format("Elementary effects on {}", result), {"factor", "mean size", "mean", "sd"}, {}};
   const std::vector<std::size_t> order = order_by(measures.mean_size);
@@ -67,8 +85,8 @@ Sensitivity describe_effects(const std::string& result, const campaigns::DesignI
                           fmt::format("{:.3g}", measures.deviation[f])});
   }
   return {json, table,
-          fmt::format("Change of {} as a factor goes up by half of its probability, from {} trajectories.", result,
-                      measures.points),
+          fmt::format("Change of {} as a factor goes up by half of its probability, from {} trajectories.{}", result,
+                      measures.points, describe_left_out(left_out, design)),
           order};
 }
 

@@ -31,6 +31,19 @@ scenarios::RunSpec SweepItems::read(std::size_t item) const {
   return read_run(run);
 }
 
+scenarios::RunSpec SweepItems::prepare(std::size_t item) const {
+  try {
+    scenarios::RunSpec spec = read(item);
+    scenarios::prepare_run(spec);
+    return spec;
+  } catch (const InputError& error) {
+    for (const SweepAxis& axis : input_.axes) {
+      if (is_of_factor(error, axis.key)) throw_of_option(error, "--vary");
+    }
+    throw;
+  }
+}
+
 void SweepItems::require_one_spelling(const std::string& path, const std::string& given) {
   const auto [known, is_new] = tire_files_.emplace(std::filesystem::weakly_canonical(path), given);
   if (is_new || known->second == given) return;
@@ -41,8 +54,7 @@ void SweepItems::require_one_spelling(const std::string& path, const std::string
 void SweepItems::check() {
   const ReadRecorder recorder;
   for (std::size_t item = 0; item < count(); ++item) {
-    const scenarios::RunSpec spec = read(item);
-    scenarios::prepare_run(spec);
+    const scenarios::RunSpec spec = prepare(item);
     for (std::size_t a = 0; a < input_.axes.size(); ++a) {
       if (input_.axes[a].key != kTireFactor) continue;
       tire_names_[points_[item][a]] = spec.tire.name;
@@ -71,6 +83,7 @@ std::vector<SweepPoint> SweepItems::list_shown_points() const {
 std::string SweepItems::define(std::uint64_t seed) const {
   CampaignDefinition definition;
   definition.version = library_version();
+  definition.sources = library_sources();
   definition.run = input_.run;
   definition.files = files_;
   definition.design.name = campaigns::kGrid;

@@ -36,6 +36,8 @@ class SweepItems : public WatchedItems {
   std::string define(std::uint64_t seed) const;
 
  private:
+  /// As read(), and throws InputError where the run cannot be prepared.
+  scenarios::RunSpec prepare(std::size_t item) const;
   /// Throws InputError where a tire file was varied under another spelling before.
   void require_one_spelling(const std::string& path, const std::string& given);
 

@@ -35,6 +35,9 @@ constexpr std::array<Launcher, 7> kLaunchers{{
     {"SLURM_PROCID", "SLURM_STEP_NUM_TASKS", false},         // the latter is set by srun alone
 }};
 
+/// What Grid Engine sets its variables to in a job without an array.
+constexpr const char* kNoGridEngineArray = "undefined";
+
 /// A job array whose tasks are told their number, and not how many there are.
 struct UncountedArray {
   const char* task;
@@ -50,6 +53,12 @@ constexpr std::array<UncountedArray, 6> kUncountedArrays{{
     {"JOB_COMPLETION_INDEX", ""},       // Kubernetes
 }};
 
+/// Whether a variable says something else than that there is no array.
+bool is_set(const Environment& environment, const char* name, const std::string& means_none) {
+  const char* value = environment(name);
+  return value != nullptr && *value != '\0' && value != means_none;
+}
+
 /// Throws InputError where this process is one of several of which it cannot know the number.
 void refuse_uncounted(const Environment& environment, bool is_process_counted) {
   const auto refuse = [](const char* name, const char* value) {
@@ -64,8 +73,7 @@ void refuse_uncounted(const Environment& environment, bool is_process_counted) {
          ""});
   };
   for (const UncountedArray& array : kUncountedArrays) {
-    const char* task = environment(array.task);
-    if (task != nullptr && std::string(task) != array.means_none) refuse(array.task, task);
+    if (is_set(environment, array.task, array.means_none)) refuse(array.task, environment(array.task));
   }
   for (const char* rank : {"PMIX_RANK", "PALS_RANKID"}) {  // the latter of HPE's mpiexec
     const char* number = environment(rank);
@@ -73,11 +81,10 @@ void refuse_uncounted(const Environment& environment, bool is_process_counted) {
   }
 }
 
-/// A variable's whole number, none where it is not set. Grid Engine sets those of a job without an array to
-/// "undefined".
+/// A variable's whole number, none where it is not set.
 std::optional<std::size_t> read_count(const Environment& environment, const char* name) {
   const char* text = environment(name);
-  if (text == nullptr || *text == '\0' || std::string(text) == "undefined") return std::nullopt;
+  if (text == nullptr || *text == '\0' || std::string(text) == kNoGridEngineArray) return std::nullopt;
   const std::optional<double> number = parse_number(text);
   if (number.has_value() && is_count(*number)) return static_cast<std::size_t>(*number);
   throw InputError({fmt::format("the variable {} is no whole number", name), "environment", 0, name, text,
@@ -157,6 +164,14 @@ std::optional<Part> find_process_part(const Environment& environment) {
     if (size.has_value()) return make_part(launcher.rank, *rank + 1, *size);
   }
   return std::nullopt;
+}
+
+bool is_array_task(const Environment& environment) {
+  const auto is_task_of = [&environment](const UncountedArray& array) {
+    return is_set(environment, array.task, array.means_none);
+  };
+  return is_set(environment, "SLURM_ARRAY_TASK_ID", "") || is_set(environment, "SGE_TASK_ID", kNoGridEngineArray) ||
+         std::any_of(kUncountedArrays.begin(), kUncountedArrays.end(), is_task_of);
 }
 
 bool is_started_for_mpi(const Environment& environment) {

@@ -35,6 +35,8 @@ using Environment = std::function<const char*(const char*)>;
 std::optional<Part> find_part(const Environment& environment);
 /// Of the processes that one launcher has started alone.
 std::optional<Part> find_process_part(const Environment& environment);
+/// Whether this process is a task of a job array of any batch system that part.cpp knows.
+bool is_array_task(const Environment& environment);
 /// Whether a launcher has started this process together with others that it can talk to over MPI.
 bool is_started_for_mpi(const Environment& environment);
 

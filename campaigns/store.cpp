@@ -1,14 +1,19 @@
 #include "campaigns/store.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
+#include <thread>
 
 #include "campaigns/design.h"
 #include "sim/core/error.h"
@@ -23,8 +28,24 @@ constexpr int kApplication = 0x726f6c6c;
 /// How long to wait for a process that reads a file.
 constexpr int kPatience_ms = 2000;  // Assumed: reading takes less
 /// How long to wait before a file counts as being written.
-constexpr int kProbe_ms = 200;  // Assumed: another process that probes takes less
+constexpr std::chrono::milliseconds kProbe{200};  // Assumed: another process that probes takes less
 constexpr std::chrono::seconds kBetweenSyncs{1};
+
+/// Whether files of a folder can be locked. Of a drive that has no locks, SQLite says the same as of a file that
+/// another process has locked. A new file is tried: to close the file of results would give up its locks.
+bool can_lock_in(const std::string& folder) {
+  std::string name = (std::filesystem::path(folder) / ".rollrig-lock-XXXXXX").string();
+  const int file = mkstemp(name.data());
+  if (file < 0) return true;  // something else is wrong
+  unlink(name.c_str());
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  lock.l_len = 1;
+  const bool is_locked = fcntl(file, F_SETLK, &lock) == 0;
+  close(file);
+  return is_locked;
+}
 
 /// Calls `use`; what goes wrong with the file is told as an error of it. `busy` says what to do where another process
 /// writes the file.
@@ -37,6 +58,11 @@ auto with_file(const std::string& path, const char* busy, const Use& use) {
     std::string what = fmt::format("cannot use the file of results: {}", error.what());
     std::string allowed = "a file that rollrig campaign has written, in a folder that can be written to";
     if (code == SQLITE_BUSY) {
+      const std::string folder = std::filesystem::path(path).parent_path().string();
+      if (!can_lock_in(folder)) {
+        throw InputError({"the drive of the campaign's folder does not lock files", folder, 0, "", "",
+                          "a folder on a drive with locks: a local one, or NFS mounted with locks", ""});
+      }
       throw FileInUse({"another process writes this file of results", path, 0, "", "", busy, ""});
     }
     if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) {
@@ -52,7 +78,7 @@ auto with_file(const std::string& path, const char* busy, const Use& use) {
 }
 
 constexpr const char* kOnePartEach =
-    "to wait until it has ended; of a campaign, one process for each part: --shard I/N";
+    "to wait until it has ended; in a campaign, give each process its own part (--shard I/N)";
 constexpr const char* kWait = "to wait until the process has ended; see rollrig campaign status";
 
 /// Opens a file for this process alone. In this mode, set before the file is first read, SQLite needs no memory that
@@ -84,6 +110,18 @@ bool is_marked_as_logged(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   in.seekg(kWriteVersion);
   return in.get() == 2;
+}
+
+/// Whether another process writes a file, or looks at this moment whether one does.
+bool is_locked(const std::string& path) {
+  if (!has_log(path)) return false;
+  try {
+    SQLite::Database file = open_alone(path, SQLite::OPEN_READWRITE, 0);
+    checkpoint_log(file);
+    return false;
+  } catch (const SQLite::Exception& error) {
+    return error.getErrorCode() == SQLITE_BUSY;
+  }
 }
 
 /// Opens a file that no process writes and that may be in a folder in which nothing can be written.
@@ -133,8 +171,9 @@ void make_tables(SQLite::Database& database, const std::string& definition) {
   SQLite::Transaction all(database);
   database.exec(fmt::format("PRAGMA application_id = {}", kApplication));
   database.exec("CREATE TABLE campaign (definition TEXT NOT NULL)");
+  // In the order in which they are written, which takes the same time whatever their order; the index is small.
   database.exec(
-      "CREATE TABLE items (item INTEGER PRIMARY KEY, identity TEXT NOT NULL, seed INTEGER NOT NULL, "
+      "CREATE TABLE items (item INTEGER NOT NULL UNIQUE, identity TEXT NOT NULL, seed INTEGER NOT NULL, "
       "result TEXT NOT NULL, failure TEXT NOT NULL)");
   SQLite::Statement insert(database, "INSERT INTO campaign VALUES (?)");
   insert.bind(1, definition);
@@ -243,15 +282,14 @@ void Store::list_items(const std::function<void(std::size_t item, bool has_faile
   with_file(database_->path, kOnePartEach, [&] { visit_items(database_->file, visit); });
 }
 
-bool is_in_use(const std::string& path) {
-  if (!has_log(path)) return false;
-  try {
-    SQLite::Database file = open_alone(path, SQLite::OPEN_READWRITE, kProbe_ms);
-    checkpoint_log(file);
-    return false;
-  } catch (const SQLite::Exception& error) {
-    return error.getErrorCode() == SQLITE_BUSY;
-  }
+std::vector<std::string> list_in_use(const std::vector<std::string>& paths) {
+  std::vector<std::string> in_use;
+  std::copy_if(paths.begin(), paths.end(), std::back_inserter(in_use), &is_locked);
+  if (in_use.empty()) return in_use;
+  std::this_thread::sleep_for(kProbe);
+  in_use.erase(std::remove_if(in_use.begin(), in_use.end(), [](const std::string& path) { return !is_locked(path); }),
+               in_use.end());
+  return in_use;
 }
 
 void read_items(const std::string& path, const std::string& definition,

@@ -56,8 +56,9 @@ class Store {
   std::unique_ptr<Database> database_;
 };
 
-/// Whether a process writes the file now.
-bool is_in_use(const std::string& path);
+/// Those of the files that a process writes now, in the same order. Takes a fifth of a second where there are any,
+/// however many.
+std::vector<std::string> list_in_use(const std::vector<std::string>& paths);
 
 /// Calls `visit` for each record of the files in order of their items, once for each item. Throws InputError: a file is
 /// another campaign's, is no such file, is written by a process now; two files have different records of one item.

@@ -170,6 +170,7 @@ int campaign_export_command(const CampaignExportOptions& options) {
   }
   const OutputFiles files({{"--csv", options.csv}, {"--mat", options.mat}, {"--hdf5", options.hdf5}});
   const ItemCampaign campaign(options.folder);
+  const CampaignState state = campaign.read_state();
   std::vector<StagedOutput> staged;
   if (!options.csv.empty()) {
     staged.emplace_back(options.csv, "");
@@ -186,6 +187,10 @@ int campaign_export_command(const CampaignExportOptions& options) {
   if (options.quiet || std::find(written.begin(), written.end(), "-") != written.end()) return kDone;
   for (const std::string& file : written) {
     if (!file.empty()) std::cout << fmt::format("written to {}\n", file);
+  }
+  if (state.done < state.items) {
+    std::cout << wrap(
+        fmt::format("{} of {} items are in the table: the others are not carried out yet", state.done, state.items), 0);
   }
   return kDone;
 }

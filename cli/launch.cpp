@@ -1,7 +1,6 @@
 // Several processes of one command, which does not share its work.
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <string>
 
@@ -10,21 +9,6 @@
 #include "rollrig/item_campaign.h"
 
 namespace rollrig::cli {
-
-namespace {
-
-/// Grid Engine sets its variable to "undefined" in a job without an array, LSF to 0.
-bool is_array_task() {
-  for (const char* name : {"SLURM_ARRAY_TASK_ID", "SGE_TASK_ID", "PBS_ARRAY_INDEX", "PBS_ARRAYID", "LSB_JOBINDEX",
-                           "OAR_ARRAY_INDEX", "AWS_BATCH_JOB_ARRAY_INDEX", "JOB_COMPLETION_INDEX"}) {
-    const std::string task = std::getenv(name) != nullptr ? std::getenv(name) : "";
-    const bool is_none = task.empty() || task == "undefined" || (name == std::string("LSB_JOBINDEX") && task == "0");
-    if (!is_none) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 void require_one_process(const std::string& command, const std::string& instead, bool quiet) {
   const std::optional<CampaignPart> launched = find_launched_part();

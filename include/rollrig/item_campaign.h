@@ -58,6 +58,8 @@ CampaignPart read_campaign_part(const std::string& text);
 std::optional<CampaignPart> find_campaign_part();
 /// As find_campaign_part(), but without job arrays, whose tasks may do different things.
 std::optional<CampaignPart> find_launched_part();
+/// Whether this process is a task of a job array.
+bool is_array_task();
 
 /// How far a campaign, or a part of it, is.
 struct CampaignState : Report {

@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <set>
 
 #include "campaigns/store.h"
@@ -92,13 +94,44 @@ TEST_CASE("one process alone writes a file", "[slow]") {
   const TemporaryFolder at;
   const CampaignFolder folder{at.path(), "test", 11};
   const Store store(folder.file_of({1, 2}), "test");
-  CHECK(is_in_use(folder.file_of({1, 2})));
+  CHECK(list_in_use({folder.file_of({1, 2}), folder.file_of({2, 2})}) ==
+        std::vector<std::string>{folder.file_of({1, 2})});
   CHECK_THROWS_AS(Store(folder.file_of({1, 2}), "test"), rollrig::InputError);
   CHECK_THROWS_AS(carry_out_items(FakeItems(), folder, {1, 2}, 1), rollrig::InputError);
   carry_out_items(FakeItems(), folder, {2, 2}, 1);
   const FolderState state = read_state(folder, 50);
   CHECK(state.tally.done == 25);
   CHECK(state.running.size() == 1);
+}
+
+TEST_CASE("many files that are written are looked at in the time of one", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  std::vector<std::unique_ptr<Store>> stores;
+  for (std::size_t number = 1; number <= 10; ++number) {
+    stores.push_back(std::make_unique<Store>(folder.file_of({number, 10}), "test"));
+  }
+  const auto start = std::chrono::steady_clock::now();
+  CHECK(read_state(folder, 50).running.size() == 10);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(1));  // 10 x 0.2 s if one after the other
+}
+
+TEST_CASE("items that two files have count once, also while one of them is written", "[fast]") {
+  const TemporaryFolder at;
+  const CampaignFolder folder{at.path(), "test", 11};
+  const FakeItems list;
+  carry_out_items(list, folder, {1, 2}, 1);
+  const std::string part = folder.file_of({1, 2});
+  // As where a merge was killed after it had renamed its file and before it removed those of the parts.
+  std::filesystem::copy_file(part, at.file("results.sqlite"));
+  std::vector<bool> is_merged(50);
+  read_items(part, "test", [&](std::size_t item, bool) { is_merged[item] = true; });
+  ResultsFile file(part, folder, is_merged);
+  file.write({1, "identity", 1, "{}", ""});
+  const FolderState state = read_state(folder, 50);
+  CHECK(state.running.size() == 1);
+  CHECK(state.tally.done >= 25);
+  CHECK(state.tally.done <= 26);  // what the process tells is up to a second old
 }
 
 TEST_CASE("results of another campaign and damaged files are refused", "[fast]") {

@@ -88,6 +88,25 @@ TEST_CASE("a process that is told its number alone is refused, and the message s
   CHECK(find_in({{"FLUX_TASK_RANK", "3"}, {"FLUX_JOB_SIZE", "8"}})->number == 4);
 }
 
+TEST_CASE("a task of a job array of any batch system is known as one", "[fast]") {
+  const auto is_task = [](const Variables& variables) {
+    return rollrig::campaigns::is_array_task([&variables](const char* name) -> const char* {
+      const auto found = variables.find(name);
+      return found == variables.end() ? nullptr : found->second.c_str();
+    });
+  };
+  for (const char* name : {"SLURM_ARRAY_TASK_ID", "SGE_TASK_ID", "PBS_ARRAY_INDEX", "LSB_JOBINDEX", "OAR_ARRAY_INDEX",
+                           "AWS_BATCH_JOB_ARRAY_INDEX"}) {
+    INFO(name);
+    CHECK(is_task({{name, "3"}}));
+    CHECK(!is_task({{name, ""}}));
+  }
+  CHECK(is_task({{"JOB_COMPLETION_INDEX", "0"}}));
+  CHECK(!is_task({{"SGE_TASK_ID", "undefined"}}));
+  CHECK(!is_task({{"LSB_JOBINDEX", "0"}}));
+  CHECK(!is_task({}));
+}
+
 TEST_CASE("the tasks of a job array have all items once", "[fast]") {
   std::vector<Part> slurm;
   for (const char* id : {"5", "8", "11", "14"}) {

@@ -161,6 +161,84 @@ TEST_CASE("a list has its rows as items", "[fast]") {
   }
 }
 
+TEST_CASE("what is wrong with a row of a list is told with its line", "[fast]") {
+  const TemporaryFolder at;
+  const auto complain_of = [&at](const char* list) {
+    write_file(at.file("list.csv"), list);
+    const ProgramResult result =
+        run_program("campaign new c iso_28580 --fidelity quasi_static --list list.csv", at.path());
+    CHECK(result.status == 2);
+    return flatten(result.err);
+  };
+  CHECK_THAT(complain_of("tire,load_N\na50,5000\na50,much\n"),
+             Catch::Contains("list.csv, line 3") && Catch::Contains("load_N") && !Catch::Contains("--set"));
+  CHECK_THAT(complain_of("tire,load_N\na50,5000\na50,5100\na51,5000\n"),
+             Catch::Contains("list.csv, line 4") && Catch::Contains("unknown tire 'a51'"));
+}
+
+TEST_CASE("what is wrong with a factor is told of its option", "[fast]") {
+  const TemporaryFolder at;
+  const auto complain_of = [&at](const std::string& factors) {
+    const ProgramResult result = run_program(std::string("campaign new c ") + kRun + factors, at.path());
+    CHECK(result.status == 2);
+    return flatten(result.err);
+  };
+  CHECK_THAT(complain_of(" --draw load_N=uniform:-3:-1 --points 4"), Catch::Contains("where --draw"));
+  CHECK_THAT(complain_of(" --vary load_N=5000,-1"), Catch::Contains("where --vary"));
+  // The median, 3, would be allowed.
+  CHECK_THAT(complain_of(" --draw measurement_cycles=uniform:1:5 --points 4"),
+             Catch::Contains("'measurement_cycles' takes whole numbers") &&
+                 Catch::Contains("--vary measurement_cycles=1,2,3"));
+  run_to_end(std::string("campaign new c ") + kRun +
+                 " --draw load_N=normal:5000:9 --vary measurement_cycles=1,2,3 --design monte_carlo --points 4",
+             at);
+  run_to_end("campaign run c", at);
+}
+
+TEST_CASE("an export and a sensitivity say what they lack", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun + " --vary ambient_degC=20:29:1", at);
+  run_to_end("campaign run c --shard 1/2", at);
+  CHECK_THAT(run_to_end("campaign export c --csv c.csv", at), Catch::Contains("5 of 10 items are in the table"));
+  run_to_end("campaign run c", at);
+  CHECK_THAT(run_to_end("campaign export c --csv all.csv", at), !Catch::Contains("in the table"));
+  run_to_end(std::string("campaign new s ") + kRun +
+                 " --draw pressure_kPa=uniform:60:400 --draw load_N=uniform:-1000:6000 --design morris --points 16",
+             at);
+  CHECK(run_program("campaign run s", at.path()).status == 3);
+  const std::string text = flatten(run_to_end("campaign sensitivity s --result rrc_N_per_kN --json s.json", at));
+  const Json found = Json::parse(read_file(at.file("s.json")));
+  const int left_out = found["points_left_out"].get<int>();
+  CHECK(left_out > 0);
+  CHECK(left_out + found["points"].get<int>() == 16);
+  CHECK_THAT(text, Catch::Contains(std::to_string(left_out) + " of 16 points are left out"));
+}
+
+TEST_CASE("a campaign of other sources of the same version is refused", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun + " --vary ambient_degC=20,25", at);
+  Json definition = Json::parse(read_file(at.file("c/campaign.json")));
+  CHECK(definition.at("sources").get<std::string>().size() == 16);
+  definition["sources"] = "0123456789abcdef";
+  write_file(at.file("c/campaign.json"), definition.dump());
+  const ProgramResult result = run_program("campaign run c", at.path());
+  CHECK(result.status == 2);
+  CHECK_THAT(flatten(result.err), Catch::Contains("other sources of rollrig"));
+  definition.erase("sources");  // begun before they were told
+  write_file(at.file("c/campaign.json"), definition.dump());
+  run_to_end("campaign run c", at);
+}
+
+#ifndef ROLLRIG_SANITIZED  // whose runtime must be loaded before any other library
+TEST_CASE("a drive that cannot lock files is told as one", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun + " --vary ambient_degC=20,25", at);
+  const ProgramResult result = run_program("campaign run c", at.path(), "LD_PRELOAD=" ROLLRIG_NO_LOCKS_LIBRARY);
+  CHECK(result.status == 2);
+  CHECK_THAT(flatten(result.err), Catch::Contains("does not lock files") && !Catch::Contains("another process"));
+}
+#endif
+
 TEST_CASE("items that fail are kept, counted and told", "[fast]") {
   const TemporaryFolder at;
   run_to_end(std::string("campaign new c ") + kRun + " --draw pressure_kPa=uniform:-100:400 --points 12 --seed 2", at);
@@ -338,8 +416,7 @@ TEST_CASE("a failed item does not stop the other processes of a launcher", "[fas
   const TemporaryFolder at;
   run_to_end(std::string("campaign new c ") + kRun + " --draw pressure_kPa=uniform:-100:400 --points 6 --seed 2", at);
   for (const char* rank : {"0", "1"}) {  // mpirun stops all where one ends with another status than 0
-    run_to_end("campaign run c --threads 1", at,
-               std::string("OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=") + rank);
+    run_to_end("campaign run c --threads 1", at, std::string("OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=") + rank);
   }
   CHECK_THAT(run_to_end("campaign status c", at), Catch::Contains("6 of 6 items done") && Catch::Contains("failed"));
   CHECK(run_program("campaign run c", at.path()).status == 3);
