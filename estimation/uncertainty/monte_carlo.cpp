@@ -11,8 +11,8 @@
 
 #include "include/rollrig/error.h"
 #include "sim/core/parallel.h"
-#include "sim/core/units.h"
 #include "sim/core/random.h"
+#include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
