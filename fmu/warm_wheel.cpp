@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rigs/driven_wheel.h"
+#include "fmu/fastest_rate.h"
 #include "rigs/standstill_grid.h"
 #include "sim/core/error.h"
 #include "sim/fixed_grid_integrator.h"
@@ -25,7 +25,7 @@ constexpr Range kForces_N = between(-1e6, 1e6);
 
 /// In the order of a roller's inputs; then the acceleration.
 constexpr std::array<InputInfo, rigs::kRollerInputCount + 1> kInputs{
-    {{"speed_m_s", "Speed of the surface past the wheel", between(-150.0, 150.0)},
+    {{"speed_m_s", "Speed of the surface past the wheel", between(-kHighestSpeed_m_s, kHighestSpeed_m_s)},
      {"load_N", "Load at the contact", between(0.0, 1e6)},
      {"ambient_temperature_K", "Air at the tire", kSurroundings_K},
      {"surface_temperature_K", "Road, drum, belt or roller under the tire; it does not follow ambient_temperature_K",
@@ -66,6 +66,9 @@ constexpr double kEnergyScale_J = 1e5;  // Assumed: of a tire in minutes
 constexpr std::size_t kLostIntegral = rigs::index_of(rigs::RecordedIntegral::kTireLoss);
 
 constexpr double kMostSteps = 1e5;  // of the integrator in one advance(), so that a mistaken number ends soon
+/// Longest step of the integrator times the fastest rate. The Runge-Kutta method is stable to 2.7.
+/// Assumed: the rest is for a rate that grows within a step.
+constexpr double kStable = 2.0;
 
 constexpr const char* kLiner = "liner_temperature_K";  // whatever the tire's model calls it
 
@@ -109,17 +112,39 @@ void require_consistent(const WheelModel& model) {
   }
 }
 
+[[noreturn]] void refuse_length(double duration_s, const std::string& what, const std::string& allowed) {
+  throw InputError({what, "", 0, "step", fmt::format("{:g}", duration_s), allowed, ""});
+}
+
+/// Throws InputError for a duration that takes more steps of the integrator than one advance() may.
+void require_few_steps(double duration_s, double step_s) {
+  const double longest_s = kMostSteps * step_s;
+  if (duration_s > longest_s) refuse_length(duration_s, "the step is too long", fmt::format("up to {:g} s", longest_s));
+}
+
 /// Throws InputError for a length that advance() cannot go on by.
-void require_step(double duration_s, double longest_s, double time_s) {
-  const auto refuse = [duration_s](const std::string& what, const std::string& allowed) {
-    throw InputError({what, "", 0, "step", fmt::format("{:g}", duration_s), allowed, ""});
-  };
-  if (!(duration_s > 0.0) || !std::isfinite(duration_s)) refuse("a step must have a length", "> 0 s");
-  if (duration_s > longest_s) refuse("the step is too long", fmt::format("up to {:g} s", longest_s));
+void require_step(double duration_s, double longest_step_s, double time_s) {
+  if (!(duration_s > 0.0) || !std::isfinite(duration_s)) {
+    refuse_length(duration_s, "a step must have a length", "> 0 s");
+  }
+  require_few_steps(duration_s, longest_step_s);
   require_time(time_s + duration_s);
   if (time_s + duration_s > time_s) return;
   const double spacing_s = std::nextafter(time_s, kLatest_s) - time_s;
-  refuse("the step is too short for the time", fmt::format("at least {:g} s at {:g} s", spacing_s, time_s));
+  refuse_length(duration_s, "the step is too short for the time",
+                fmt::format("at least {:g} s at {:g} s", spacing_s, time_s));
+}
+
+/// The parameter that makes a wheel with this fastest rate too fast for any step.
+InputError make_too_fast(const Culprit& culprit, double rate_per_s) {
+  const Unit unit = unit_of_key(culprit.field.key);
+  const double limit_SI = culprit.value_SI * std::pow(kStable / kShortestStep_s / rate_per_s, 1.0 / culprit.exponent);
+  const std::string allowed = fmt::format("{} {:.2g} {}", culprit.exponent > 0.0 ? "at most about" : "at least about",
+                                          unit.from_si(limit_SI), unit.symbol);
+  return InputError({fmt::format("with this value, the tire changes within {:.2g} s, and steps of the integrator would "
+                                 "have to be shorter than {:g} s",
+                                 1.0 / rate_per_s, kShortestStep_s),
+                     "", 0, culprit.name, fmt::format("{:g}", unit.from_si(culprit.value_SI)), allowed, ""});
 }
 
 }  // namespace
@@ -130,29 +155,11 @@ void require_time(double time_s) {
                     fmt::format("{:g} to {:g} s", -kLatest_s, kLatest_s), ""});
 }
 
-/// The equations for one scalar, with what an integrator needs.
-template <class S>
-struct WarmWheel::Simulation {
-  static rigs::RigStart<S> make_start(const WheelModel& model) {
-    rigs::RigStart<S> start;
-    start.tire_temperature_K = S(model.tire_temperature_K);
-    start.cold_pressure_Pa = S(model.cold_pressure_Pa);
-    start.ambient_pressure_Pa = S(model.ambient_pressure_Pa);
-    return start;
-  }
+/// The equations, with what an integrator needs.
+struct WarmWheel::Simulation : WheelEquations<double> {
+  explicit Simulation(const WheelModel& model) : WheelEquations<double>(model), integrator(wheel) {}
 
-  explicit Simulation(const WheelModel& model)
-      : corner(models::convert_context<S>(model.context), model.effects),
-        wheel(corner, make_start(model), true, rigs::Detail::kFull),
-        integrator(wheel),
-        states(corner.state_count()),
-        rates(corner.state_count()),
-        integrals(wheel.integrals().size()) {}
-
-  models::Corner<S> corner;
-  rigs::DrivenWheel<S> wheel;
-  sim::FixedGridIntegrator<S> integrator;
-  std::vector<S> states, rates, integrals;
+  sim::FixedGridIntegrator<double> integrator;
 };
 
 WarmWheel::WarmWheel(const WheelModel& model) : original_model_(model), model_(model) {
@@ -166,7 +173,7 @@ WarmWheel::~WarmWheel() = default;
 
 void WarmWheel::undo_initialize() {
   simulation_.reset();
-  jet_simulation_.reset();
+  forget_derivatives();
   states_.clear();
   is_evaluated_ = false;
 }
@@ -315,20 +322,20 @@ sim::Segment WarmWheel::make_segment(double duration_s) const {
   return segment;
 }
 
-std::unique_ptr<WarmWheel::Simulation<double>> WarmWheel::make_simulation(double time_s) const {
+std::unique_ptr<WarmWheel::Simulation> WarmWheel::make_simulation(double time_s) const {
   require_consistent(model_);
-  auto simulation = std::make_unique<Simulation<double>>(model_);
+  auto simulation = std::make_unique<Simulation>(model_);
   simulation->wheel.initialize(make_segment(0.0), time_s, simulation->states.data());
   return simulation;
 }
 
 void WarmWheel::initialize(double time_s) {
   require_time(time_s);
-  std::unique_ptr<Simulation<double>> simulation = make_simulation(time_s);
+  std::unique_ptr<Simulation> simulation = make_simulation(time_s);
   states_ = simulation->states;
   states_.push_back(0.0);
   simulation_ = std::move(simulation);
-  jet_simulation_.reset();
+  forget_derivatives();
   time_s_ = time_s;
   is_evaluated_ = false;
 }
@@ -341,11 +348,10 @@ void WarmWheel::set_time(double time_s) {
 void WarmWheel::evaluate() {
   require_initialized();
   if (is_evaluated_) return;
-  Simulation<double>& simulation = *simulation_;
+  Simulation& simulation = *simulation_;
   std::copy_n(states_.begin(), simulation.states.size(), simulation.states.begin());
   simulation.wheel.set_given({inputs_[kAcceleration], {}});
-  simulation.wheel.begin_segment(make_segment(0.0), time_s_, simulation.states.data(), simulation.integrals.data());
-  simulation.wheel.evaluate(time_s_, simulation.states.data(), simulation.rates.data(), simulation.integrals.data());
+  simulation.evaluate(make_segment(0.0), time_s_);
   const auto outputs = read_outputs(simulation.wheel);
   outputs_.assign(outputs.begin(), outputs.end());
   rates_ = simulation.rates;
@@ -358,14 +364,48 @@ void WarmWheel::evaluate() {
   is_evaluated_ = true;
 }
 
+/// What is made of the parameters when it is asked for.
+void WarmWheel::forget_derivatives() {
+  jet_simulation_.reset();
+  fastest_rate_.reset();
+}
+
+/// Step of the integrator through a piece that is straight in all inputs: the longest, unless the states change so fast
+/// by themselves that it would be unstable.
+double WarmWheel::choose_step_s(const sim::Segment& piece, const double* states) {
+  const double longest_s = model_.longest_step_s;
+  if (fastest_rate_ == nullptr) fastest_rate_ = std::make_unique<FastestRate>(model_);
+  const double usual_per_s = fastest_rate_->usual_per_s();
+  constexpr double kFar = 0.25;  // Assumed: of the bound, where no load or drive can lead to it
+  if (usual_per_s * longest_s < kFar * kStable) return longest_s;
+  if (!(usual_per_s * kShortestStep_s <= kStable)) {
+    throw make_too_fast(find_culprit(model_, original_model_), usual_per_s);
+  }
+  double rate_per_s = 0.0;
+  for (const double elapsed_s : {0.0, piece.duration_s}) {
+    sim::Segment moment;
+    for (const sim::Ramp& input : piece.inputs) moment.inputs.push_back({input.at(elapsed_s), 0.0});
+    rate_per_s = std::max(rate_per_s, fastest_rate_->calc_per_s(moment, inputs_[kAcceleration], states));
+  }
+  if (!(rate_per_s * kShortestStep_s <= kStable)) {
+    throw RunFailure(
+        fmt::format("with these inputs, the tire changes within {:.2g} s, and steps of the integrator would "
+                    "have to be shorter than {:g} s",
+                    1.0 / rate_per_s, kShortestStep_s));
+  }
+  const double step_s = std::min(longest_s, kStable / rate_per_s);
+  require_few_steps(piece.duration_s, step_s);
+  return step_s;
+}
+
 void WarmWheel::advance(double duration_s) {
   require_initialized();
-  require_step(duration_s, kMostSteps * model_.longest_step_s, time_s_);
+  require_step(duration_s, model_.longest_step_s, time_s_);
   for (std::size_t i = 0; i < rigs::kRollerInputCount; ++i) {
     const double end = inputs_[i] + find_slope(i) * duration_s;
     if (!kInputs[i].range.contains(end)) throw bad_value(variables_[i], end, "the slope leads to a value not allowed");
   }
-  Simulation<double>& simulation = *simulation_;
+  Simulation& simulation = *simulation_;
   is_evaluated_ = false;
   simulation.integrator.begin_run(time_s_);
   std::copy_n(states_.begin(), simulation.states.size(), simulation.integrator.state());
@@ -379,7 +419,7 @@ void WarmWheel::advance(double duration_s) {
     end_s += piece.duration_s;
     simulation.wheel.begin_segment(piece, simulation.integrator.time_s(), simulation.integrator.state(),
                                    simulation.integrator.integrals());
-    const double longest_s = model_.longest_step_s;
+    const double longest_s = choose_step_s(piece, simulation.integrator.state());
     simulation.integrator.begin_segment(piece.max_step_s > 0.0 ? std::min(piece.max_step_s, longest_s) : longest_s,
                                         nullptr);
     while (simulation.integrator.time_s() < end_s) {
@@ -423,11 +463,11 @@ std::vector<double> WarmWheel::differentiate(const std::vector<std::size_t>& unk
   require_initialized();
   const bool is_start = moment == Moment::kStart;
   if (jet_simulation_ == nullptr || is_start) {
-    auto made = std::make_unique<Simulation<Jet>>(model_);
+    auto made = std::make_unique<WheelEquations<Jet>>(model_);
     made->wheel.initialize(make_segment(0.0), time_s_, made->states.data());
     jet_simulation_ = std::move(made);
   }
-  Simulation<Jet>& simulation = *jet_simulation_;
+  WheelEquations<Jet>& simulation = *jet_simulation_;
   Jet lost{states_.back()};
   std::transform(states_.begin(), states_.end() - 1, simulation.states.begin(),
                  [](double value) { return Jet(value); });
@@ -450,8 +490,7 @@ std::vector<double> WarmWheel::differentiate(const std::vector<std::size_t>& unk
   }
   simulation.wheel.set_given(given);
   if (is_start) simulation.wheel.initialize(make_segment(0.0), time_s_, simulation.states.data());
-  simulation.wheel.begin_segment(make_segment(0.0), time_s_, simulation.states.data(), simulation.integrals.data());
-  simulation.wheel.evaluate(time_s_, simulation.states.data(), simulation.rates.data(), simulation.integrals.data());
+  simulation.evaluate(make_segment(0.0), time_s_);
   const auto outputs = read_outputs(simulation.wheel);
   std::vector<double> derivatives;
   for (const std::size_t index : unknown) {
@@ -503,7 +542,7 @@ void WarmWheel::restore(const Snapshot& snapshot) {
     inputs_ = from.inputs;
     input_slopes_ = from.input_slopes;
   };
-  std::unique_ptr<Simulation<double>> simulation;
+  std::unique_ptr<Simulation> simulation;
   const bool same_wheel = is_initialized() && before.parameters == snapshot.parameters;
   try {
     put(snapshot);
@@ -515,7 +554,7 @@ void WarmWheel::restore(const Snapshot& snapshot) {
   }
   if (!same_wheel || !has_states) {
     simulation_ = std::move(simulation);
-    jet_simulation_.reset();
+    forget_derivatives();
   }
   states_ = snapshot.states;
   time_s_ = snapshot.time_s;

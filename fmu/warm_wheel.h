@@ -13,6 +13,10 @@
 
 namespace rollrig::fmu {
 
+template <class S>
+struct WheelEquations;
+class FastestRate;
+
 enum class Role { kInput, kOutput, kState, kRate, kParameter, kTime };
 
 /// A number that another simulator sees, in the unit that its name ends with; ratios have none. der(x) is the rate of
@@ -53,7 +57,8 @@ struct Snapshot {
 /// through it.
 ///
 /// Equation  rigs/driven_wheel.h; states are those of models/corner.h, and the energy that the tire has lost. advance()
-///           steps as a quasi-static run does: sim/fixed_grid_integrator.h on the grid of rigs/standstill_grid.h
+///           steps as a quasi-static run does: sim/fixed_grid_integrator.h on the grid of rigs/standstill_grid.h. Where
+///           the states change faster than its steps can follow, steps are shorter: at most 2/FastestRate
 /// Errors    InputError: a value that is not allowed, not a number, or set too late. RunFailure: a state that no tire
 ///           can have. After either, time, states, inputs and parameters are as before the call
 /// Checked   tests/fmu/co_simulation_test.cpp
@@ -97,8 +102,8 @@ class WarmWheel {
   double time_s() const { return time_s_; }
   /// Sets only the time, for a solver of the caller's.
   void set_time(double time_s);
-  /// Goes on by `duration_s` [s], more than 0 and at most 1e5 times steps.longest_s. Inputs with a slope end where it
-  /// leads.
+  /// Goes on by `duration_s` [s], more than 0 and at most 1e5 steps of the integrator long. Inputs with a slope end
+  /// where it leads. Throws InputError, which names the parameter, where steps would be shorter than kShortestStep_s.
   void advance(double duration_s);
 
   /// In the units of their variables.
@@ -120,7 +125,6 @@ class WarmWheel {
   void restore(const Snapshot& snapshot);
 
  private:
-  template <class S>
   struct Simulation;
 
   void list_parameters();
@@ -130,9 +134,11 @@ class WarmWheel {
   const Variable& state(std::size_t index) const { return variables_[first_state_ + index]; }
   void require_initialized() const;
   double find_slope(std::size_t input) const;
-  std::unique_ptr<Simulation<double>> make_simulation(double time_s) const;
+  std::unique_ptr<Simulation> make_simulation(double time_s) const;
   sim::Segment make_segment(double duration_s) const;
   void evaluate();
+  void forget_derivatives();
+  double choose_step_s(const sim::Segment& piece, const double* states);
 
   WheelModel original_model_;   // for reset()
   std::uint64_t checksum_ = 0;  // of the original model
@@ -148,8 +154,9 @@ class WarmWheel {
   bool is_evaluated_ = false;
   std::vector<double> rates_;
   std::vector<double> outputs_;
-  std::unique_ptr<Simulation<double>> simulation_;
-  std::unique_ptr<Simulation<Jet>> jet_simulation_;  // made when a derivative is asked for
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<WheelEquations<Jet>> jet_simulation_;  // made when a derivative is asked for
+  std::unique_ptr<FastestRate> fastest_rate_;            // made by the first advance()
 };
 
 }  // namespace rollrig::fmu

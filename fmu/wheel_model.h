@@ -10,6 +10,9 @@
 
 namespace rollrig::fmu {
 
+constexpr double kHighestSpeed_m_s = 150.0;  // Assumed: beyond every rig and road
+constexpr double kShortestStep_s = 1e-4;     // of the integrator
+
 struct WheelModel {
   std::string tire;  // its name
   models::Context<double> context;
@@ -57,8 +60,9 @@ struct WheelModel {
              m.tire_temperature_K);
     of_start(Field{"cold_pressure_kPa", between(1.0, 10000.0), "Gauge pressure at that temperature"},
              m.cold_pressure_Pa);
-    in_table("steps")(Field{"longest_s", between(1e-4, 10.0), "Longest step of the integrator in co-simulation"},
-                      m.longest_step_s);
+    in_table("steps")(
+        Field{"longest_s", between(kShortestStep_s, 10.0), "Longest step of the integrator in co-simulation"},
+        m.longest_step_s);
     for (auto& on : m.effects) {
       const auto& declared = on.effect->info.parameters;
       for (std::size_t i = 0; i < declared.size(); ++i) {
