@@ -6,7 +6,6 @@
 #include "exports/wheel_of_tire.h"
 #include "sim/core/assets.h"
 #include "sim/core/error.h"
-#include "sim/core/file_io.h"
 
 namespace rollrig {
 
@@ -17,8 +16,8 @@ std::string make_fmu(const FmuInput& input) {
   }
   const models::TireFile tire = models::read_tire(read_config(find_asset("tires", input.tire)));
   const rigs::RigFile rig = rigs::read_rig(read_config(find_asset("rigs", input.rig)));
-  return exports::make_fmu_file(exports::make_wheel_model(tire, rig, input.effects), rig.name,
-                                read_text_file(tire.path), input.fmi_version);
+  return exports::make_fmu_file(exports::make_wheel_model(tire, rig, input.effects), {tire.name, tire.path},
+                                {rig.name, rig.path}, input.fmi_version);
 }
 
 }  // namespace rollrig

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "exports/model_description.h"
+#include "exports/xml.h"
 #include "exports/zip_archive.h"
 #include "fmu/model_block.h"
 #include "sim/core/embed.h"
@@ -51,15 +52,16 @@ unless they have a slope.</p>
 
 }  // namespace
 
-std::string make_fmu_file(const fmu::WheelModel& model, const std::string& rig, const std::string& tire_toml,
-                          int fmi_version) {
+std::string make_fmu_file(const fmu::WheelModel& model, const NamedFile& tire, const NamedFile& rig, int fmi_version) {
+  require_xml_text(tire.name, "the name of the tire", "name", tire.path);
+  require_xml_text(rig.name, "the name of the rig", "name", rig.path);
   const std::string text = fmu::write_wheel_model(model);
   const std::string library(rollrig_fmu_library_begin, rollrig_fmu_library_end);
   const std::string tool = fmt::format("rollrig {}", ROLLRIG_VERSION);
   FmuDescription about;
   about.fmi_version = fmi_version;
-  about.name = model.tire;
-  about.description = fmt::format("Warm tire {} on {}", model.tire, rig);
+  about.name = tire.name;
+  about.description = fmt::format("Warm tire {} on {}", tire.name, rig.name);
   about.tool = tool;
   about.token = make_token(tool + text + library);
   const std::string folder = fmi_version == 3 ? "binaries/x86_64-linux/" : "binaries/linux64/";
@@ -70,7 +72,7 @@ std::string make_fmu_file(const fmu::WheelModel& model, const std::string& rig, 
        {"documentation/index.html", kDocumentation},
        {"documentation/licenses/license.txt", {rollrig_license_begin, rollrig_license_end}},
        {"documentation/licenses/third_party.txt", {rollrig_fmu_third_party_begin, rollrig_fmu_third_party_end}},
-       {"resources/tire.toml", tire_toml}});
+       {"resources/tire.toml", read_text_file(tire.path)}});
 }
 
 }  // namespace rollrig::exports

@@ -161,15 +161,6 @@ void validate(const xmlDoc& doc, std::vector<std::string>& problems) {
   if ((of_frame != 0 || of_data != 0) && problems.empty()) problems.emplace_back("the schema refuses it");
 }
 
-/// Refuses what XML cannot hold.
-void require_text(const char* name, const std::string& text) {
-  bool is_good = xmlCheckUTF8(to_xml(text)) != 0;
-  for (const char c : text) is_good = is_good && static_cast<unsigned char>(c) >= 0x20 && c != 0x7f;
-  if (is_good) return;
-  throw InputError({fmt::format("{} has characters that are not text", name), "", 0, name, "",
-                    "text in UTF-8 without control characters", ""});
-}
-
 std::string read_child(const xmlNode& parent, const char* name) {
   for (const xmlNode* child = parent.children; child != nullptr; child = child->next) {
     if (!is_element(child, name, kDefinitionSpace)) continue;
@@ -226,10 +217,10 @@ std::string make_vecto_xml(const VectoTire& tire) {
   xmlNewProp(root, to_xml("schemaVersion"), to_xml("1.0"));
   xmlNode* component_node = xmlNewChild(root, component, to_xml("Tyre"), nullptr);
   xmlNode* data = xmlNewChild(component_node, definition, to_xml("Data"), nullptr);
-  require_text("id", tire.id);
+  require_xml_text(tire.id, "id", "id");
   xmlNewProp(data, to_xml("id"), to_xml(tire.id));
   const auto add = [data, definition](const char* name, const std::string& text) {
-    require_text(name, text);
+    require_xml_text(text, name, name);
     xmlNewTextChild(data, definition, to_xml(name), to_xml(text));
   };
   add("Manufacturer", tire.manufacturer);

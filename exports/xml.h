@@ -8,6 +8,8 @@
 #include <memory>
 #include <string>
 
+#include "sim/core/error.h"
+
 namespace rollrig::exports {
 
 struct XmlFree {
@@ -21,6 +23,19 @@ using XmlPointer = std::unique_ptr<T, XmlFree>;
 
 inline const xmlChar* to_xml(const std::string& text) { return reinterpret_cast<const xmlChar*>(text.c_str()); }
 inline const xmlChar* to_xml(const char* text) { return reinterpret_cast<const xmlChar*>(text); }
+
+/// Refuses what XML cannot hold, by an InputError that calls it `what`, with the `key` and its file.
+inline void require_xml_text(const std::string& text, const std::string& what, const std::string& key,
+                             const std::string& file = "") {
+  bool is_good = xmlCheckUTF8(to_xml(text)) != 0;
+  for (const char c : text) is_good = is_good && static_cast<unsigned char>(c) >= 0x20 && c != 0x7f;
+  for (const char* no_character : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {  // U+FFFE, U+FFFF
+    is_good = is_good && text.find(no_character) == std::string::npos;
+  }
+  if (is_good) return;
+  throw InputError(
+      {what + " has characters that are not text", file, 0, key, "", "text in UTF-8 without control characters", ""});
+}
 
 /// The document as indented text in UTF-8.
 inline std::string write_xml(xmlDoc& doc) {

@@ -30,6 +30,21 @@ bool is_valid(const std::string& xml, const std::string& schema_path) {
   return valid;
 }
 
+std::string find_own_schema(int version) {
+  return std::string(ROLLRIG_SOURCE_DIR) + "/tests/fmu/fmi" + std::to_string(version) + "_description.xsd";
+}
+
+std::string read_model_name(const std::string& xml) {
+  xmlDoc* doc = xmlReadMemory(xml.data(), static_cast<int>(xml.size()), "modelDescription.xml", nullptr, 0);
+  REQUIRE(doc != nullptr);
+  xmlChar* name = xmlGetProp(xmlDocGetRootElement(doc), reinterpret_cast<const xmlChar*>("modelName"));
+  REQUIRE(name != nullptr);
+  const std::string found(reinterpret_cast<const char*>(name));
+  xmlFree(name);
+  xmlFreeDoc(doc);
+  return found;
+}
+
 }  // namespace
 
 TEST_CASE("rollrig export fmu writes an FMU of a tire, the same bytes each time", "[fast]") {
@@ -105,11 +120,43 @@ TEST_CASE("the description is as the schemas of the standard have it", "[fast]")
     CHECK(description.fmi_version == (version == 2 ? "2.0" : "3.0"));
     CHECK(description.variables.size() > 50);
     const std::string name = std::to_string(version);
-    const std::string own = std::string(ROLLRIG_SOURCE_DIR) + "/tests/fmu/fmi" + name + "_description.xsd";
+    const std::string own = find_own_schema(version);
     CHECK(is_valid(xml, own));
     CHECK_FALSE(is_valid(std::string(xml).replace(xml.find("causality"), 9, "casuality"), own));
     if (schemas == nullptr) continue;
     CHECK(is_valid(xml, std::string(schemas) + "/" + name + "/fmi" + name + "ModelDescription.xsd"));
+  }
+}
+
+TEST_CASE("the description holds any name of a tire or a rig, or the name is refused with its file", "[fast]") {
+  const TemporaryFolder folder;
+  const auto write_named = [&](const std::string& kind, const std::string& from, const std::string& name) {
+    std::string text = read_file(std::string(ROLLRIG_SOURCE_DIR) + "/assets/" + kind + "/" + from + ".toml");
+    const std::size_t at = text.find("\nname = ") + 1;
+    text.replace(at, text.find('\n', at) - at, "name = " + name);
+    write_file(folder.file(kind + ".toml"), text);
+    return folder.file(kind + ".toml");
+  };
+  for (const auto& [written, name] : {std::pair(R"("<b a='1'>\"&amp; & ]]>")", R"(<b a='1'>"&amp; & ]]>)"),
+                                      std::pair("\"Winterreifen f\u00fcr Schnee\"", "Winterreifen f\u00fcr Schnee")}) {
+    for (const int version : {2, 3}) {
+      const std::string xml =
+          read_zip(rollrig::make_fmu(
+                       {write_named("tires", "a50", written), write_named("rigs", "drum_2m", written), {}, version}))
+              .at("modelDescription.xml");
+      CHECK(is_valid(xml, find_own_schema(version)));
+      CHECK(read_model_name(xml) == name);
+    }
+  }
+  for (const char* bad : {R"("a\u0001b")", R"("a\nb")", R"("a\tb")", R"("a\u007Fb")", R"("a\uFFFFb")"}) {
+    INFO(bad);
+    const std::string good_tire = write_named("tires", "a50", "\"good\"");
+    const std::string bad_rig = write_named("rigs", "drum_2m", bad);
+    CHECK_THROWS_WITH(rollrig::make_fmu({good_tire, bad_rig, {}}),
+                      Catch::Contains("the name of the rig") && Catch::Contains("rigs.toml"));
+    const std::string bad_tire = write_named("tires", "a50", bad);
+    CHECK_THROWS_WITH(rollrig::make_fmu({bad_tire, "road", {}}),
+                      Catch::Contains("the name of the tire") && Catch::Contains("tires.toml"));
   }
 }
 
