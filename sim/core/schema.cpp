@@ -11,8 +11,9 @@
 namespace rollrig {
 namespace {
 
+/// With its article.
 const char* kind_of(const ConfigValue& value) {
-  static constexpr const char* kKinds[] = {"true/false", "number", "string", "array", "table"};
+  static constexpr const char* kKinds[] = {"true or false", "a number", "a string", "an array", "a table"};
   return kKinds[value.data.index()];
 }
 
@@ -59,7 +60,7 @@ const ConfigValue& TableReader::require(const std::string& key) {
 double TableReader::convert(const Field& field, const ConfigValue& value) const {
   const double* number = std::get_if<double>(&value.data);
   if (number == nullptr) {
-    throw problem(field.key, fmt::format("'{}' must be a number, not a {}", field.key, kind_of(value)),
+    throw problem(field.key, fmt::format("'{}' must be a number, not {}", field.key, kind_of(value)),
                   allowed_number(field));
   }
   if (!std::isfinite(*number)) {
@@ -102,7 +103,7 @@ std::vector<double> TableReader::numbers_or(const Field& field, const std::vecto
   if (value == nullptr) return fallback;
   const ConfigArray* array = value->as_array();
   if (array == nullptr || array->empty()) {
-    throw problem(field.key, fmt::format("'{}' must be a list of numbers, not a {}", field.key, kind_of(*value)),
+    throw problem(field.key, fmt::format("'{}' must be a list of numbers, not {}", field.key, kind_of(*value)),
                   fmt::format("{} = [1.0, 2.0], each {}", field.key, allowed_number(field)));
   }
   std::vector<double> numbers;
@@ -122,7 +123,7 @@ std::string TableReader::text(const std::string& key, const std::vector<std::str
   const ConfigValue& value = require(key);
   const auto* text = std::get_if<std::string>(&value.data);
   if (text == nullptr) {
-    throw problem(key, fmt::format("'{}' must be a string, not a {}", key, kind_of(value)), "a string in quotes");
+    throw problem(key, fmt::format("'{}' must be a string, not {}", key, kind_of(value)), "a string in quotes");
   }
   if (!choices.empty() && std::find(choices.begin(), choices.end(), *text) == choices.end()) {
     InputProblem unknown = unknown_name(key, *text, choices);
@@ -148,7 +149,7 @@ bool TableReader::flag_or(const std::string& key, bool fallback) {
   if (value == nullptr) return fallback;
   const bool* flag = std::get_if<bool>(&value->data);
   if (flag == nullptr) {
-    throw problem(key, fmt::format("'{}' must be true or false, not a {}", key, kind_of(*value)), "true or false");
+    throw problem(key, fmt::format("'{}' must be true or false, not {}", key, kind_of(*value)), "true or false");
   }
   return *flag;
 }
@@ -157,7 +158,7 @@ const ConfigTable* TableReader::table(const std::string& key) {
   const ConfigValue* value = find(key);
   if (value == nullptr) return nullptr;
   if (value->as_table() == nullptr) {
-    throw problem(key, fmt::format("'{}' must be a table, not a {}", key, kind_of(*value)), fmt::format("[{}]", key));
+    throw problem(key, fmt::format("'{}' must be a table, not {}", key, kind_of(*value)), fmt::format("[{}]", key));
   }
   return value->as_table();
 }
@@ -197,7 +198,7 @@ void check_format(TableReader& reader, const std::string& kind, int newest_versi
   const bool same_kind = given.rfind(kind + "/", 0) == 0;
   throw reader.problem("format",
                        same_kind ? fmt::format("format version '{}' is not known to this program", given)
-                                 : fmt::format("this is not a {} file but '{}'", kind, given),
+                                 : fmt::format("this is not {} file but '{}'", kind, given),
                        fmt::format("format = \"{}\"", wanted));
 }
 
