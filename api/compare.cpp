@@ -36,14 +36,13 @@ bool is_set_file(const std::string& given) { return fs::path(given).filename() =
 /// What a folder, file or name stands for. Throws InputError.
 ComparedKind recognize(const std::string& given) {
   if (given.empty()) throw compare_error("the name of what is compared is empty", given, kWhatIsCompared);
-  std::error_code none;
-  if (fs::is_directory(given, none)) {
+  if (is_there(given) && fs::is_directory(given)) {
     if (comparison::holds_result(given)) return ComparedKind::kResults;
-    if (fs::exists(fs::path(given) / "set.toml", none)) return ComparedKind::kSets;
+    if (is_there((fs::path(given) / "set.toml").string())) return ComparedKind::kSets;
     throw compare_error(fmt::format("'{}' is a folder without result.json and set.toml", given), given,
                         kWhatIsCompared);
   }
-  if (is_set_file(given) && fs::exists(given, none)) return ComparedKind::kSets;
+  if (is_set_file(given) && is_there(given)) return ComparedKind::kSets;
   if (is_file_name(given)) {
     if (fs::path(given).extension() == ".toml") return ComparedKind::kTires;
     throw compare_error(fmt::format("'{}' is no folder and no .toml file", given), given, kWhatIsCompared,

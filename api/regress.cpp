@@ -21,11 +21,17 @@ namespace fs = std::filesystem;
 namespace rollrig {
 namespace {
 
-/// Names of the files in `folder` that end in `ending`, without it, sorted.
+/// Names of the files in `folder` that end in `ending`, without it, sorted; none where it is no folder. Throws
+/// InputError for a folder that cannot be read.
 std::vector<std::string> list_names(const std::string& folder, const std::string& ending) {
   std::vector<std::string> names;
   std::error_code code;
-  for (const auto& entry : fs::directory_iterator(folder, code)) {
+  const fs::directory_iterator entries(folder, code);
+  if (code && code != std::errc::no_such_file_or_directory && code != std::errc::not_a_directory) {
+    throw InputError({fmt::format("cannot read '{}': {}", folder, code.message()), folder, 0, "", "",
+                      "a folder that can be read and searched", ""});
+  }
+  for (const auto& entry : entries) {
     const std::string file = entry.path().filename().string();
     if (file.size() < ending.size() || file.substr(file.size() - ending.size()) != ending) continue;
     names.push_back(file.substr(0, file.size() - ending.size()));

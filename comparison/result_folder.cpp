@@ -35,10 +35,7 @@ Json read_document(const std::string& path, const std::string& format, const std
 
 std::string ResultFolder::file_of(const char* name) const { return (fs::path(path) / name).string(); }
 
-bool holds_result(const std::string& folder) {
-  std::error_code none;
-  return fs::exists(fs::path(folder) / kResultFile, none);
-}
+bool holds_result(const std::string& folder) { return is_there((fs::path(folder) / kResultFile).string()); }
 
 ResultFolder read_result_folder(const std::string& folder) {
   ResultFolder found;

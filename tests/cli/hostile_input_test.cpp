@@ -116,7 +116,8 @@ TEST_CASE("names that lead nowhere are errors of the input", "[slow]") {
   check_refused(run_program("run iso_28580 --tire " + long_name, folder.path()), "unknown tire");
   check_refused(run_program("describe " + long_name, folder.path()), "");
   for (const char* command : {"run iso_28580 --tire ./", "run ./", "fit road-load ./", "validate ./", "diagnose ./",
-                              "fit tire ./", "import --guess ./", "export --mat x.mat ./"}) {
+                              "fit tire ./", "import --guess ./", "export --mat x.mat ./", "compare a50 ./",
+                              "regress ./"}) {
     const bool is_import = std::string(command).find("import") == 0;
     const std::string rest = is_import ? " --tire a50 --rig drum_2m --out set" : "";
     INFO(command);
