@@ -47,6 +47,9 @@ void read_argument(py::handle given, const std::string& name, Member& member) {
     member = given.cast<Member>();
   } catch (const py::cast_error&) {
     throw wrong_type(name, Expected<Member>::kText, given);
+  } catch (py::error_already_set& error) {  // as of an array without dimensions, which has no length
+    if (!error.matches(PyExc_TypeError)) throw;
+    throw wrong_type(name, Expected<Member>::kText, given);
   }
 }
 void read_argument(py::handle given, const std::string& name, bool& flag);

@@ -20,9 +20,9 @@ namespace rollrig::python {
 namespace {
 
 std::shared_ptr<Report> compare_all(const py::object& show, const std::vector<std::string>& compared,
-                                    const py::object& scenario, bool skip_bad_rows) {
+                                    const py::object& scenario, const py::object& threads, bool skip_bad_rows) {
   const CompareInput input{compared, scenario.is_none() ? "" : to_string(scenario, "scenario"),
-                           to_bad_rows(skip_bad_rows)};
+                           to_bad_rows(skip_bad_rows), read_argument<int>(threads, "threads")};
   return std::make_shared<Comparison>(call(show, [&](const Progress& progress) { return compare(input, progress); }));
 }
 

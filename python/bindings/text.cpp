@@ -34,10 +34,7 @@ std::string to_string(pybind11::handle given, const std::string& argument) {
     if (text.find('\0') == std::string::npos) return text;
     throw bad_text(argument, "NUL character", "text without one", given);
   }
-  PyObject* path = PyOS_FSPath(given.ptr());
-  if (path != nullptr) return to_string(pybind11::reinterpret_steal<pybind11::object>(path), argument);
-  PyErr_Clear();
-  throw wrong_type(argument, "a text or a path is expected", given);
+  throw wrong_type(argument, "a text is expected", given);
 }
 
 std::string show(pybind11::handle value) {

@@ -14,8 +14,9 @@ inline pybind11::str to_str(const std::string& text) {
   return pybind11::reinterpret_steal<pybind11::str>(made);
 }
 
-/// Text of a str (surrogates become the bytes again), of bytes or of a path. `argument` stands in messages.
-/// Throws TypeError for what is none of them, and InputError for a lone surrogate or a NUL character.
+/// Text of a str (surrogates become the bytes again) or of bytes. Paths are bytes here (rollrig.settings). `argument`
+/// stands in messages. Throws TypeError for what is none of them, and InputError for a lone surrogate or a NUL
+/// character.
 std::string to_string(pybind11::handle given, const std::string& argument);
 
 /// A value as messages show it: its repr, or the start of a long one.

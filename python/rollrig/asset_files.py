@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import difflib
+
 from . import _rollrig
-from .settings import PathLike, to_path
+from .settings import PathLike, input_error, to_path, to_word
 
 
 def scenarios() -> dict[str, str]:
@@ -16,19 +18,35 @@ def effects() -> dict[str, str]:
     return _rollrig.list_effects()
 
 
+FOLDERS = ("tires", "rigs", "vehicles", "cycles", "sensors")
+
+
+def to_folder(folder: str) -> str | bytes:
+    """A folder of assets. What is no text in Unicode is left to the library."""
+    word = to_word(folder, "folder")
+    if isinstance(word, bytes) or not word.isprintable() or word in FOLDERS:
+        return word
+    nearest = (difflib.get_close_matches(word, FOLDERS, 1) or [""])[0]
+    raise input_error(f"unknown folder of assets '{word}'", "folder", word, ", ".join(FOLDERS), nearest)
+
+
 def assets(folder: str) -> list[str]:
     """
     :api list_assets
+
     * folder: "tires", "rigs", "vehicles", "cycles" or "sensors".
     """
-    return _rollrig.list_assets(folder)
+    return _rollrig.list_assets(to_folder(folder))
 
 
 def find_asset(folder: str, name_or_path: PathLike) -> str:
     """
     :api find_asset
+
+    * folder: "tires", "rigs", "vehicles", "cycles" or "sensors".
+    * name_or_path: of the file; a path stays as it is.
     """
-    return _rollrig.find_asset(folder, to_path(name_or_path, "name_or_path"))
+    return _rollrig.find_asset(to_folder(folder), to_path(name_or_path, "name_or_path"))
 
 
 def assets_folder() -> str:
@@ -48,5 +66,7 @@ class Description(str):
 def describe(name: PathLike) -> Description:
     """
     :api describe
+
+    * name: of a scenario, an effect or an asset, or the path of a file.
     """
     return Description(_rollrig.describe(to_path(name, "name")))

@@ -39,6 +39,8 @@ class CampaignState(Report):
 class Campaign:
     """
     :api ItemCampaign
+
+    * folder: of the campaign.
     """
 
     def __init__(self, folder: PathLike) -> None:
@@ -80,6 +82,8 @@ class Campaign:
     def sensitivity(self, result: str) -> Report:
         """
         :api ItemCampaign::calc_sensitivity
+
+        * result: its name, as in the columns of csv().
         """
         return Report(self._campaign.calc_sensitivity(result))
 
@@ -100,8 +104,10 @@ def new_campaign(folder: PathLike, scenario: PathLike, *,
     :api define_run_campaign
 
     :members RunCampaignInput
-    :members RunInput
-    * vary: by name of a setting the values that it takes.
+    :members RunInput as the scenario or the run file has it
+    * folder: of the campaign; made where it is not there.
+    * vary: by name of a setting the values that it takes; None: none.
+    * list: CSV file of a list: a column for each setting, a row for each item; None: none.
     """
     names = {"tire": tire, "rig": rig, "vehicle": vehicle, "fidelity": fidelity, "baseline": baseline,
              "sensors": sensors, "seed": seed}
@@ -118,8 +124,8 @@ def new_diagnosis_campaign(folder: PathLike, sets: Sequence[PathLike], *,
     """
     :api define_diagnosis_campaign
 
+    * folder: of the campaign; made where it is not there.
     :members DiagnosisCampaignInput
-    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
     options = {"sets": to_paths(sets, "sets"), "only": to_names(only, "only"), "without": to_names(without, "without"),
                "smallest_effect_percent": smallest_effect_percent, "skip_bad_rows": to_skip(skip_bad_rows)}

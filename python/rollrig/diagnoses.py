@@ -40,7 +40,11 @@ class Diagnosis(Report):
         return list(self.data["next_test"])
 
     def write_plan(self, folder: PathLike, force: bool = False) -> bool:
-        """Writes the first proposed test as files for run(), with plan.txt. False: no test is proposed."""
+        """Writes the first proposed test as files for run(), with plan.txt. False: no test is proposed.
+
+        * folder: for the files; made where it is not there.
+        * force: whether a folder that holds files is written into.
+        """
         files = self._made.make_plan()
         if files:
             _rollrig.write_folder(to_path(folder, "folder"), files, to_flag(force, "force"))
@@ -81,8 +85,8 @@ def diagnose(set: MeasurementSet | PathLike, *, only: Sequence[str] = (), withou
     """
     :api diagnose
 
+    * set: a MeasurementSet, or the folder of one.
     :members DiagnosisOptions
-    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
     given = {"only": to_names(only, "only"), "without": to_names(without, "without"), "threads": threads,
              "smallest_effect_percent": smallest_effect_percent}
@@ -96,8 +100,8 @@ def diagnose_fleet(folders: Sequence[PathLike], *, only: Sequence[str] = (), wit
     """
     :api diagnose_fleet
 
+    * folders: of measurement sets.
     :members DiagnosisOptions
-    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
     given = {"only": to_names(only, "only"), "without": to_names(without, "without"), "threads": threads,
              "smallest_effect_percent": smallest_effect_percent}
@@ -112,8 +116,8 @@ def diagnose_pair(a: MeasurementSet | PathLike, b: MeasurementSet | PathLike, *,
     """
     :api diagnose_pair
 
+    * a, b: a MeasurementSet each, or the folder of one.
     :members DiagnosisOptions
-    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
     given = {"only": to_names(only, "only"), "without": to_names(without, "without"), "threads": threads}
     with progress_display(progress) as show:
@@ -131,14 +135,13 @@ def advance_loop(set: PathLike, folder: PathLike, *, hours: float | None = None,
 
     :members LoopInput
     :members DiagnosisOptions
-    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
     given = {"set": set, "folder": folder, "hours": hours,
              "test_failed": to_flag(test_failed, "test_failed"), "only": to_names(only, "only"),
              "without": to_names(without, "without"), "threads": threads,
              "smallest_effect_percent": smallest_effect_percent, "skip_bad_rows": to_skip(skip_bad_rows)}
     with progress_display(progress) as show:
-        return Loop(_rollrig.advance_loop(show, take_given(given)))
+        return Loop(_rollrig.advance_loop(show, take_given(given, "set", "folder")))
 
 
 def plan_campaign(*, rig: Name = None, tire: Name = None, vehicle: Name = None, sensors: Name = None,
@@ -158,5 +161,7 @@ def plan_campaign(*, rig: Name = None, tire: Name = None, vehicle: Name = None, 
 def explain(effect: str) -> str:
     """
     :api explain_effect
+
+    * effect: its name; effects() lists them.
     """
     return _rollrig.explain_effect(effect)

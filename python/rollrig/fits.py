@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from . import _rollrig
-from .errors import InputError
 from .notebook import Progress, progress_display
 from .report import Report
+from .runs import Name
 from .sets import MeasurementSet, as_set
-from .settings import PathLike, make_uncertainty_options, take_given, to_flag, to_list, to_path, to_skip
+from .settings import (PathLike, input_error, make_uncertainty_options, take_given, to_flag, to_list, to_path,
+                       to_skip, to_word)
 from .values import Estimate
 
 Abc = Sequence[float]
@@ -43,6 +44,7 @@ def fit_tire(set: MeasurementSet | PathLike, *, name: str | None = None, load_ma
 
     :api fit_tire
 
+    * set: a MeasurementSet, or the folder of one.
     :members TireFitOptions
     """
     given = {"name": name, "load_map": to_flag(load_map, "load_map"),
@@ -63,17 +65,18 @@ def fit_road_load(file: PathLike, *, mass_kg: float | None = None, rotating_mass
 
     :api fit_road_load
 
+    * file: CSV file of coastdowns, or the folder of a recorded run.
     * per_mass: forces per unit of effective mass; no mass is needed. Without a mass and without this, the file has to
       be a recording, which tells the vehicle.
 
+    * bounds: lowest and highest A, B, C in SI units; None: none.
+    * target: A, B, C in SI units, with which the result is compared; None: none.
+    * sessions: those that are used; none: all.
     :members RoadLoadFitOptions
-    * uncertainty: whether the uncertainty budget of the results is wanted.
-    * monte_carlo: number of trials that check it; 0: none.
     :members UncertaintyOptions
     """
     if to_flag(per_mass, "per_mass") and (mass_kg is not None or rotating_mass_kg is not None):
-        what = "per_mass and a mass exclude each other"
-        raise InputError(what, key="per_mass", allowed="one of them")
+        raise input_error("per_mass and a mass exclude each other", "per_mass", "", "one of them")
     given = {"mass_kg": mass_kg, "rotating_mass_kg": rotating_mass_kg, "drag_area_m2": drag_area_m2,
              "reference_temperature_K": reference_temperature_K, "reference_pressure_Pa": reference_pressure_Pa,
              "rolling_fall_per_K": rolling_fall_per_K, "speed_from_m_s": speed_from_m_s,
@@ -98,10 +101,11 @@ def evaluate_road_load(file: PathLike, method: str, *, mass_kg: float | None = N
     """
     :api evaluate_road_load
 
+    * file: CSV file of coastdowns or of a torque-meter test, or the folder of a recorded run.
     * method: "wltp", "j2263", "j1263" or "torque-meter".
+    * wheel_radius_m: dynamic radius, of a torque-meter test; None: from its wheel speeds.
+    * sessions: those that are used; none: all.
     :members RoadLoadProcedureOptions
-    * uncertainty: whether the uncertainty budget of the results is wanted.
-    * monte_carlo: number of trials that check it; 0: none.
     :members UncertaintyOptions
     """
     given = {"mass_kg": mass_kg, "rotating_mass_kg": rotating_mass_kg, "corrected_to_mass_kg": corrected_to_mass_kg,
@@ -111,8 +115,8 @@ def evaluate_road_load(file: PathLike, method: str, *, mass_kg: float | None = N
              "sensor_accuracy": to_flag(sensor_accuracy, "sensor_accuracy"),
              "leave_out": to_list(leave_out, "leave_out")}
     with progress_display(progress) as show:
-        return Fit(_rollrig.fit_road_load(show, to_path(file, "file"), method, to_list(sessions, "sessions"),
-                                          to_skip(skip_bad_rows),
+        return Fit(_rollrig.fit_road_load(show, to_path(file, "file"), to_word(method, "method"),
+                                          to_list(sessions, "sessions"), to_skip(skip_bad_rows),
                                           make_uncertainty_options(uncertainty, monte_carlo, seed, threads),
                                           take_given(given)))
 
@@ -123,22 +127,24 @@ def default_road_load(*, mass_kg: float, width_m: float, height_m: float, tire_c
     :api calc_default_road_load
 
     :members DefaultRoadLoadOptions
+    * rrc_N_per_kN: of the tire, with its class; None: no rolling resistance class.
     """
     given = {"mass_kg": mass_kg, "width_m": width_m, "height_m": height_m, "tire_class": tire_class,
              "rrc_N_per_kN": rrc_N_per_kN}
-    return Fit(_rollrig.calc_default_road_load(take_given(given)))
+    return Fit(_rollrig.calc_default_road_load(take_given(given, "mass_kg", "width_m", "height_m")))
 
 
 def fit_j2452(path: PathLike, *, maximum_load_N: float | None = None, base_pressure_Pa: float | None = None,
-              warm_pressure: bool = False, urban_cycle: str | None = None, highway_cycle: str | None = None,
+              warm_pressure: bool = False, urban_cycle: Name = None, highway_cycle: Name = None,
               uncertainty: bool = False, monte_carlo: int = 0, seed: int = 1, threads: int = 0,
               progress: Progress = None) -> Fit:
     """
     :api fit_j2452
 
+    * path: CSV file of test points, or the folder or result.json of a run.
+    * base_pressure_Pa: gauge, of the standard reference condition; None: that of the result, else no such condition.
+    * highway_cycle: likewise; None: "hwfet".
     :members RollingLawOptions
-    * uncertainty: whether the uncertainty budget of the results is wanted.
-    * monte_carlo: number of trials that check it; 0: none.
     :members UncertaintyOptions
     """
     given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa,
@@ -156,9 +162,10 @@ def fit_j1269(path: PathLike, *, proportional: bool = False, maximum_load_N: flo
     """
     :api fit_j1269
 
+    * path: CSV file of test points, or the folder or result.json of a run.
+    * base_pressure_Pa: gauge, of the standard reference condition; None: that of the result, else no such condition.
+    * proportional: F = Z (A1 + A3/P) instead of A0 + A1 Z + A2/P + A3 Z/P.
     :members RollingLawOptions
-    * uncertainty: whether the uncertainty budget of the results is wanted.
-    * monte_carlo: number of trials that check it; 0: none.
     :members UncertaintyOptions
     """
     given = {"maximum_load_N": maximum_load_N, "base_pressure_Pa": base_pressure_Pa,
@@ -173,6 +180,9 @@ def fit_j1269(path: PathLike, *, proportional: bool = False, maximum_load_N: flo
 def fit_drum_coastdown(set: PathLike, *, data: PathLike | None = None, skip_bad_rows: bool = False) -> Report:
     """
     :api fit_drum_coastdown
+
+    * set: file of a set of coast-downs (.toml).
+    * data: folder of its CSV files; None: that of the set.
     """
     logs = to_path("" if data is None else data, "data")
     return Report(_rollrig.fit_drum_coastdown(to_path(set, "set"), logs, to_skip(skip_bad_rows)))

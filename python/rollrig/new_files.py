@@ -22,8 +22,11 @@ def new_tire(size: str, *, name: str | None = None, load_index: str | int | None
     :api make_new_tire
 
     :members NewTireOptions
-    * warm_up: log of a warm-up, or a folder of such logs, to which the tire is fitted; further arguments tell of the
-      log, as those of import_folder().
+    * load_index: "91"; of "156/150" the first; None: that of the size.
+    * rrc_N_per_kN: of ISO 28580, at 25 degC on the 2 m drum; None: by the property file.
+    * tir: path of a tire property file (.tir) whose coefficients give the RRc; None: no such file.
+    * warm_up: log of a warm-up, or a folder of such logs, to which the tire is fitted; None: no fit.
+    * log: further arguments tell of the log, as those of import_folder().
     """
     if "folder" in log:
         raise TypeError("unexpected keyword argument 'folder'")
@@ -33,7 +36,7 @@ def new_tire(size: str, *, name: str | None = None, load_index: str | int | None
              "rrc_sd_N_per_kN": rrc_sd_N_per_kN, "pressure_kPa": pressure_kPa, "speed_symbol": speed_symbol}
     with progress_display(progress) as show:
         of_log = {"folder": to_optional_path(warm_up, "warm_up"), **log}
-        return Report(_rollrig.make_new_tire(show, take_given(given), take_given(of_log)))
+        return Report(_rollrig.make_new_tire(show, take_given(given, "size"), take_given(of_log)))
 
 
 def new_rig(*, name: str | None = None, kind: str | None = None, diameter_m: float | None = None,
@@ -43,7 +46,13 @@ def new_rig(*, name: str | None = None, kind: str | None = None, diameter_m: flo
     """
     :api make_new_rig
 
-    :members NewRigOptions
+    * name: of the rig; None: my_ and its kind.
+    :members NewRigOptions that of the usual rig of this kind
+    * diameter_m: of a drum, which needs it, or of the rollers of a dyno; None: that of the usual dyno.
+    * inertia_kg_m2: of drum or roller; None: that of the usual rig, in proportion to the cube of the diameter.
+    * moving_mass_kg: of a belt with its drums and motor; None: that of the usual belt.
+    * skim_load_N: load of the skim test of a drum or a belt; None: that of the usual rig of this kind.
+    * ambient_degC: usual temperature of the air; None: that of the usual rig of this kind.
     """
     return Report(_rollrig.make_new_rig(take_given(locals())))
 
@@ -55,9 +64,15 @@ def new_vehicle(*, mass_kg: float, name: str | None = None, drag_area_m2: float 
     """
     :api make_new_vehicle
 
-    :members NewVehicleOptions
+    * mass_kg: as tested.
+    * name: of the vehicle; None: my_vehicle.
+    * drag_area_m2: drag coefficient times frontal area; None: from C of the road load, which is then needed.
+    * rotating_mass_kg: of all rotating parts; None: 3 % of the mass.
+    * wheelbase_m: between the axles; None: 2.7.
+    * front_load_share: share of the weight on the front axle; None: 0.5.
+    :members NewVehicleOptions no road load
     """
-    return Report(_rollrig.make_new_vehicle(take_given(locals())))
+    return Report(_rollrig.make_new_vehicle(take_given(locals(), "mass_kg")))
 
 
 def new_set(folder: PathLike, *, beside: PathLike | None = None, tire: Name = None, rig: Name = None,
@@ -69,7 +84,7 @@ def new_set(folder: PathLike, *, beside: PathLike | None = None, tire: Name = No
 
     It is guessed from logs of which nothing is known, with a comment on each guess, as `rollrig new set` does.
 
-    :members GuessOptions
+    :members GuessOptions what the logs tell
     * beside: folder into which the file is to be written; None: that of the logs.
     """
     given = {"folder": folder, "tire": tire, "rig": rig, "vehicle": vehicle, "sensors": sensors, "name": name,
@@ -77,4 +92,4 @@ def new_set(folder: PathLike, *, beside: PathLike | None = None, tire: Name = No
              "cold_pressure_kPa": cold_pressure_kPa, "rests_min": rests_min}
     logs = os.fsdecode(to_path(folder, "folder"))
     of_file = beside if beside is not None else logs if os.path.isdir(logs) else os.path.dirname(logs)
-    return Report(_rollrig.guess_set(take_given(given), to_path(of_file, "beside")))
+    return Report(_rollrig.guess_set(take_given(given, "folder"), to_path(of_file, "beside")))

@@ -81,6 +81,8 @@ class Report:
     def write(self, folder: PathLike, force: bool = False) -> None:
         """
         :api write_folder
+
+        * folder: for the files; made where it is not there.
         """
         self._made.write(to_path(folder, "folder"), to_flag(force, "force"))
 

@@ -8,19 +8,20 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, make_uncertainty_options, take_given, to_flag, to_list, to_load_index, to_path, \
-    to_paths, to_plain, to_skip
+from .settings import (PathLike, make_uncertainty_options, take_given, to_flag, to_load_index, to_names, to_path,
+                       to_paths, to_plain, to_skip)
 
 
-def compare(compared: Sequence[PathLike], *, scenario: str | None = None, skip_bad_rows: bool = False,
-            progress: Progress = None) -> Report:
+def compare(compared: Sequence[PathLike], *, scenario: str | None = None, threads: int = 0,
+            skip_bad_rows: bool = False, progress: Progress = None) -> Report:
     """
     :api compare
 
     :members CompareInput
     """
     with progress_display(progress) as show:
-        return Report(_rollrig.compare(show, to_paths(compared, "compared"), scenario, to_skip(skip_bad_rows)))
+        return Report(_rollrig.compare(show, to_paths(compared, "compared"), scenario, threads,
+                                       to_skip(skip_bad_rows)))
 
 
 def label(*, rrc_N_per_kN: float | None = None, rrc_sd_N_per_kN: float | None = None, tire_class: str | None = None,
@@ -29,7 +30,7 @@ def label(*, rrc_N_per_kN: float | None = None, rrc_sd_N_per_kN: float | None = 
     """
     :api make_label
 
-    :members LabelInput
+    :members LabelInput not known
     """
     given = {"rrc_N_per_kN": rrc_N_per_kN, "rrc_sd_N_per_kN": rrc_sd_N_per_kN, "tire_class": tire_class,
              "load_index": to_load_index(load_index, "load_index"), "speed_symbol": speed_symbol,
@@ -44,10 +45,10 @@ def convert(*, force_N: float | None = None, rrc_N_per_kN: float | None = None,
     """
     :api convert_loss
 
-    * force_N, rrc_N_per_kN: the loss, as one of the two.
+    * force_N, rrc_N_per_kN: the loss, as one of the two; None: the other one.
     * measured, wanted: the conditions on both sides: drum_curvature_per_m (0 for the flat road), tire_diameter_m,
       pressure_Pa (gauge), ambient_K, load_N. What is absent is the same on both sides.
-    :members ConversionInput
+    :members ConversionInput no tire
     """
     given = {"force_N": force_N, "rrc_N_per_kN": rrc_N_per_kN, "tire": tire, "pressure_exponent": pressure_exponent,
              "load_exponent": load_exponent, "diameter_exponent": diameter_exponent,
@@ -63,9 +64,8 @@ def align(file: PathLike, *, reference_values: Name = None, machine: str | None 
     """
     :api align
 
-    :members AlignmentInput
-    * uncertainty: whether the uncertainty budget of the results is wanted.
-    * monte_carlo: number of trials that check it; 0: none.
+    * machine: the candidate machine; None: the only one of the file.
+    :members AlignmentInput none
     :members UncertaintyOptions
     """
     given = {"file": file, "reference_values": reference_values, "machine": machine,
@@ -74,7 +74,7 @@ def align(file: PathLike, *, reference_values: Name = None, machine: str | None 
              "first_excluded": to_flag(first_excluded, "first_excluded"), "on": on, "machine_changed": machine_changed}
     with progress_display(progress) as show:
         return Report(_rollrig.align(show, make_uncertainty_options(uncertainty, monte_carlo, seed, threads),
-                                     take_given(given)))
+                                     take_given(given, "file")))
 
 
 def apply_alignment(alignment: PathLike, rrc_N_per_kN: float, *, measurements: int = 1,
@@ -84,20 +84,20 @@ def apply_alignment(alignment: PathLike, rrc_N_per_kN: float, *, measurements: i
     :api apply_alignment
 
     :members AlignedValueInput
-    * uncertainty: whether the uncertainty budget of the results is wanted.
-    * monte_carlo: number of trials that check it; 0: none.
     :members UncertaintyOptions
     """
     given = {"alignment": alignment, "rrc_N_per_kN": rrc_N_per_kN, "measurements": measurements, "on": on}
     with progress_display(progress) as show:
         return Report(_rollrig.apply_alignment(show, make_uncertainty_options(uncertainty, monte_carlo, seed, threads),
-                                               take_given(given)))
+                                               take_given(given, "alignment", "rrc_N_per_kN")))
 
 
 def export_mat(source: PathLike, *, skip_bad_rows: bool = False) -> bytes:
     """The bytes of a .mat file.
 
     :api read_export
+
+    * source: folder of a result or of a measurement set.
     """
     return _rollrig.export_bytes(to_path(source, "source"), True, to_skip(skip_bad_rows))
 
@@ -106,6 +106,8 @@ def export_hdf5(source: PathLike, *, skip_bad_rows: bool = False) -> bytes:
     """The bytes of an HDF5 file.
 
     :api read_export
+
+    * source: folder of a result or of a measurement set.
     """
     return _rollrig.export_bytes(to_path(source, "source"), False, to_skip(skip_bad_rows))
 
@@ -116,8 +118,8 @@ def make_fmu(tire: PathLike, *, rig: PathLike = "road", effects: Sequence[str] =
 
     :members FmuInput
     """
-    given = {"tire": tire, "rig": rig, "effects": to_list(effects, "effects"), "fmi_version": fmi_version}
-    return _rollrig.make_fmu(take_given(given))
+    given = {"tire": tire, "rig": rig, "effects": to_names(effects, "effects"), "fmi_version": fmi_version}
+    return _rollrig.make_fmu(take_given(given, "tire"))
 
 
 def vecto_tire(tire: PathLike, *, rrc_N_per_kN: float | None = None, manufacturer: str | None = None,
@@ -128,12 +130,14 @@ def vecto_tire(tire: PathLike, *, rrc_N_per_kN: float | None = None, manufacture
 
     :members VectoTireInput
     """
-    return _rollrig.make_vecto_tire(take_given(locals()))
+    return _rollrig.make_vecto_tire(take_given(locals(), "tire"))
 
 
 def regress(folder: PathLike | None = None, *, threads: int = 0, progress: Progress = None) -> Report:
     """
     :api regress
+
+    * folder: with run files and their goldens; None: that of the assets.
     """
     with progress_display(progress) as show:
         return Report(_rollrig.regress(show, to_path("" if folder is None else folder, "folder"), threads))

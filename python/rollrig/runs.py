@@ -107,7 +107,11 @@ class Result(Report, Mapping[str, ResultItem]):
         return to_data_frame(columns, {name: at.unit for name, at in self.channels.items()}, "time_s")
 
     def write_set(self, folder: PathLike, force: bool = False) -> None:
-        """Writes the run as a measurement set. Raises ValueError for a scenario that writes none."""
+        """Writes the run as a measurement set. Raises ValueError for a scenario that writes none.
+
+        * folder: for the set; made where it is not there.
+        * force: whether a folder that holds files is written into.
+        """
         files = self._made.make_set_files()
         if files is None:
             raise ValueError(f"scenario '{self.data['scenario']}' writes no measurement set")
@@ -135,10 +139,7 @@ class Run:
                  fidelity: str | None = None, baseline: str | None = None, sensors: Name = None,
                  seed: int | None = None, **settings: Any) -> None:
         """
-        :members RunInput
-        * settings: any setting of the scenario by its name, such as pressure_kPa=210; describe(scenario) lists them.
-          A dict changes a value of a file or an effect: effects={"bearing_warmup": {"fall_per_K": 0.02}}, or
-          **{"tire.thermal.heat_capacity_J_per_K": 12000}.
+        :members RunInput as the scenario or the run file has it
         """
         names = {"tire": tire, "rig": rig, "vehicle": vehicle, "fidelity": fidelity, "baseline": baseline,
                  "sensors": sensors, "seed": seed}
@@ -168,8 +169,6 @@ class Run:
                   threads: int = 0) -> Result:
         """
         :api Run::carry_out
-        * uncertainty: whether the uncertainty budget of the results is wanted.
-        * monte_carlo: number of trials that check it; 0: none.
         * threads: for these trials; 0: as many as the machine has.
         """
         options = {"uncertainty": uncertainty, "monte_carlo": monte_carlo, "threads": threads}
@@ -183,14 +182,7 @@ def run(scenario: PathLike, *, tire: Name = None, rig: Name = None, vehicle: Nam
         **settings: Any) -> Result:
     """Runs a scenario: rollrig.run("iso_28580", tire="a50", pressure_kPa=210).
 
-    :members RunInput
-    * settings: any setting of the scenario by its name, such as pressure_kPa=210; describe(scenario) lists them.
-      A dict changes a value of a file or an effect: effects={"bearing_warmup": {"fall_per_K": 0.02}}, or
-      **{"tire.thermal.heat_capacity_J_per_K": 12000}.
-    * progress: True shows a bar, False none; None shows a bar in Jupyter alone. A function is called with the share
-      done (0 to 1, NaN if unknown) and the stage as text.
-    * uncertainty: whether the uncertainty budget of the results is wanted.
-    * monte_carlo: number of trials that check it; 0: none.
+    :members RunInput as the scenario or the run file has it
     * threads: for these trials; 0: as many as the machine has.
     """
     prepared = Run(scenario, tire=tire, rig=rig, vehicle=vehicle, fidelity=fidelity, baseline=baseline,

@@ -42,6 +42,9 @@ class MeasuredRun:
 class MeasurementSet:
     """
     :api MeasurementSet
+
+    * folder: of the set.
+    * skip_bad_rows: whether rows that cannot be used are left out instead of refused.
     """
 
     def __init__(self, folder: PathLike, *, skip_bad_rows: bool = False) -> None:
@@ -94,6 +97,8 @@ class FileCheck(NamedTuple):
 def validate(path: PathLike, *, skip_bad_rows: bool = False) -> FileCheck:
     """
     :api check_file
+
+    * path: of a file, or of the folder of a measurement set.
     """
     return FileCheck(*_rollrig.check_file(to_path(path, "path"), to_skip(skip_bad_rows)))
 
@@ -101,6 +106,8 @@ def validate(path: PathLike, *, skip_bad_rows: bool = False) -> FileCheck:
 def find_sets(folder: PathLike) -> list[str]:
     """
     :api find_sets
+
+    * folder: that holds folders of sets.
     """
     return _rollrig.find_sets(to_path(folder, "folder"))
 
@@ -108,6 +115,9 @@ def find_sets(folder: PathLike) -> list[str]:
 def import_logs(mapping: PathLike, *, data: PathLike | None = None, skip_bad_rows: bool = False) -> Report:
     """
     :api import_logs
+
+    * mapping: file that tells of the logs (import.toml).
+    * data: folder of the logs; None: that of the mapping.
     """
     return Report(_rollrig.import_logs(to_path(mapping, "mapping"), to_path("" if data is None else data, "data"),
                                        to_skip(skip_bad_rows)))
@@ -123,7 +133,8 @@ def import_folder(folder: PathLike, out: PathLike, *, tire: Name = None, rig: Na
 
     :api import_guessed
 
-    :members GuessOptions
+    * out: folder for the set.
+    :members GuessOptions what the logs tell
     * force: whether a folder that holds files is written into.
     """
     given = {"folder": folder, "tire": tire, "rig": rig, "vehicle": vehicle, "sensors": sensors, "name": name,
@@ -131,5 +142,5 @@ def import_folder(folder: PathLike, out: PathLike, *, tire: Name = None, rig: Na
              "cold_pressure_kPa": cold_pressure_kPa, "rests_min": rests_min}
     into = to_path(out, "out")
     overwrite = to_flag(force, "force")
-    Report(_rollrig.import_guessed(take_given(given), into, to_skip(skip_bad_rows))).write(into, overwrite)
+    Report(_rollrig.import_guessed(take_given(given, "folder"), into, to_skip(skip_bad_rows))).write(into, overwrite)
     return MeasurementSet(into, skip_bad_rows=skip_bad_rows)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import decimal
+import json
+import math
 import numbers
 import operator
 import os
@@ -29,16 +31,27 @@ def wrong_type(argument: str, expected: str, value: Any) -> TypeError:
     return TypeError(f"argument '{argument}': {expected}, not {show(value)}")
 
 
+def input_error(what: str, key: str, value: str, allowed: str, nearest: str = "") -> InputError:
+    """With a message like those of the library."""
+    shown = [("key", key), ("value", value), ("allowed", allowed), ("nearest", nearest)]
+    message = what + "".join(f"\n  {label:<8} {content}" for label, content in shown if content)
+    return InputError(message, what, key=key, value=value, allowed=allowed, nearest=nearest)
+
+
+PATHS = frozenset(["alignment", "file", "folder", "highway_cycle", "list", "reference_values", "rig", "scenario",
+                   "sensors", "set", "tir", "tire", "urban_cycle", "vehicle"])
+"""Arguments that are paths, or names that stand for files."""
+
+
 def to_path(value: Any, argument: str) -> bytes:
     """A path, or text, as the library takes it. A name of a file that is not UTF-8 keeps its bytes."""
     try:
         given = os.fspath(value)
     except TypeError:
-        raise wrong_type(argument, "a path is expected", value) from None
+        raise wrong_type(argument, "a text or a path is expected", value) from None
     encoded = to_bytes(given, argument)
     if b"\0" in encoded:
-        what = f"argument '{argument}' has a NUL character"
-        raise InputError(what, key=argument, value=show(value), allowed="text without one")
+        raise input_error(f"argument '{argument}' has a NUL character", argument, show(value), "text without one")
     return encoded
 
 
@@ -49,26 +62,40 @@ def to_bytes(text: str | bytes, argument: str) -> bytes:
         return text.encode("utf-8", "surrogateescape")
     except UnicodeEncodeError:
         what = f"argument '{argument}' has a lone surrogate"
-        raise InputError(what, key=argument, value=show(text), allowed="text in Unicode") from None
+        raise input_error(what, argument, show(text), "text in Unicode") from None
 
 
 def to_optional_path(value: Any, argument: str) -> bytes | None:
     return None if value is None else to_path(value, argument)
 
 
+def to_elements(values: Any, argument: str, expected: str) -> list[Any]:
+    """Those of a list or of what can stand for one. The order of a set changes from process to process."""
+    if isinstance(values, (set, frozenset)):
+        raise wrong_type(argument, f"{expected} (a set has no order; sorted() makes a list of it)", values)
+    try:
+        iterator = None if isinstance(values, (str, bytes, os.PathLike, Mapping)) else iter(values)
+    except TypeError:  # also of an array without dimensions
+        iterator = None
+    if iterator is None:
+        raise wrong_type(argument, expected, values)
+    return [*iterator]
+
+
 def to_paths(values: Any, argument: str) -> list[bytes]:
-    if isinstance(values, (str, bytes, os.PathLike)) or not isinstance(values, Iterable):
-        raise wrong_type(argument, "a list of paths is expected", values)
-    return [to_path(value, argument) for value in values]
+    return [to_path(value, argument) for value in to_elements(values, argument, "a list of paths is expected")]
 
 
 def to_list(values: Any, argument: str) -> list[Any]:
     """What is repeated on the command line. One text stands for a list of it."""
-    if isinstance(values, (str, bytes)):
-        return [values]
-    if not isinstance(values, Iterable):
-        raise wrong_type(argument, "a list is expected", values)
-    return [*values]
+    return [values] if isinstance(values, (str, bytes)) else to_elements(values, argument, "a list is expected")
+
+
+def to_word(value: Any, argument: str) -> str | bytes:
+    """A text that is no path."""
+    if isinstance(value, (str, bytes)):
+        return value
+    raise wrong_type(argument, "a text is expected", value)
 
 
 def is_bool(value: Any) -> bool:
@@ -97,12 +124,27 @@ def to_count(value: Any, argument: str) -> str:
     raise wrong_type(argument, "a whole number is expected", value)
 
 
+def out_of_range(value: Any, argument: str, allowed: str) -> InputError:
+    """The same words as in python/bindings/keywords.cpp."""
+    return input_error(f"argument '{argument}' is out of range", argument, show(value), allowed)
+
+
 def write_whole_number(value: int, argument: str) -> str:
     try:
         return str(value)
     except ValueError:  # it has more digits than Python writes
-        what = f"argument '{argument}' is out of range"
-        raise InputError(what, key=argument, value=show(value), allowed="a number with fewer digits") from None
+        raise out_of_range(value, argument, "a number with fewer digits") from None
+
+
+def write_real_number(value: Any, argument: str) -> str:
+    """Of a number that is no float: the nearest one, with every bit."""
+    try:
+        nearest = float(value)
+    except (OverflowError, ValueError):  # of a signaling NaN
+        nearest = math.inf
+    if math.isinf(nearest):
+        raise out_of_range(value, argument, "a number that a float can hold")
+    return float.__repr__(nearest)
 
 
 def to_load_index(value: Any, argument: str) -> str | bytes | None:
@@ -120,23 +162,28 @@ def to_text(value: Any, argument: str) -> str:
         return "{}"  # an effect without numbers, or a wrong name
     if isinstance(value, float):
         return float.__repr__(value)
-    if isinstance(value, int):
-        return write_whole_number(value, argument)
+    if isinstance(value, int) and value.bit_length() < 64:  # as the library reads it
+        return str(value)
     if isinstance(value, (str, bytes, os.PathLike)):
         return os.fsdecode(value)
-    if isinstance(value, Iterable) and not isinstance(value, Mapping):
-        return "[" + ",".join(_to_element(each, argument) for each in value) + "]"
-    if isinstance(value, decimal.Decimal):
-        return str(value)
-    if isinstance(value, numbers.Real):  # such as a fraction
-        return float.__repr__(float(value))
-    raise wrong_type(argument, "a number, a text or a list is expected", value)
+    if isinstance(value, (numbers.Real, decimal.Decimal)):  # also a fraction
+        return write_real_number(value, argument)
+    elements = to_elements(value, argument, "a number, a text or a list is expected")
+    return "[" + ",".join(_to_element(each, argument) for each in elements) + "]"
 
 
 def _to_element(value: Any, argument: str) -> str:
-    if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    if isinstance(value, (str, bytes, os.PathLike)):
+        return json.dumps(os.fsdecode(value), ensure_ascii=False)
     return to_text(value, argument)
+
+
+def require_table(value: Any, argument: str) -> None:
+    """Of effects, or of one: a dict. No effect at all is an empty one, an effect with its usual numbers likewise."""
+    if value is None or isinstance(value, Mapping):
+        return
+    example = '{"bearing_warmup": {}}' if argument == "effects" else "{} for its usual numbers"
+    raise wrong_type(argument, f"a dict is expected, such as {example}", value)
 
 
 def list_settings(settings: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
@@ -146,8 +193,10 @@ def list_settings(settings: Mapping[str, Any], prefix: str = "") -> Iterator[str
             raise wrong_type(prefix[:-1], "a dict with texts as keys is expected", settings)
         if not re.fullmatch(r"[\w.\-]+", key):
             what = f"{prefix + key!r} is no key of a setting"
-            raise InputError(what, what, key=prefix + key, allowed="letters, digits, '_', '-' and '.'")
-        if isinstance(value, Mapping) and value:
+            raise input_error(what, prefix + key, "", "letters, digits, '_', '-' and '.'")
+        if prefix + key == "effects" or prefix == "effects.":
+            require_table(value, prefix + key)
+        if isinstance(value, Mapping) and (value or prefix + key == "effects"):
             yield from list_settings(value, f"{prefix}{key}.")
         elif value is not None:
             yield f"{prefix}{key}={to_text(value, prefix + key)}"
@@ -163,16 +212,26 @@ def to_plain(value: Any) -> Any:
     return dict(value) if isinstance(value, Mapping) else value
 
 
-def take_given(arguments: Mapping[str, Any]) -> dict[str, Any]:
-    """The arguments that are not None; for the others the library uses its defaults. Mappings become dicts."""
-    return {key: to_plain(value) for key, value in arguments.items() if value is not None}
+def take_given(arguments: Mapping[str, Any], *required: str) -> dict[str, Any]:
+    """The arguments that are not None, and those that are required; for the others the library uses its defaults.
+
+    Mappings become dicts.
+    """
+    return {key: to_path(value, key) if key in PATHS else to_plain(value)
+            for key, value in arguments.items() if value is not None or key in required}
 
 
 def make_uncertainty_options(uncertainty: bool, monte_carlo: int, seed: int, threads: int) -> dict[str, Any]:
     return {"uncertainty": uncertainty, "monte_carlo": monte_carlo, "seed": seed, "threads": threads}
 
 
+def to_seed(value: Any) -> str:
+    if not is_bool(value) and isinstance(value, int) and value.bit_length() > 63:
+        raise out_of_range(value, "seed", "0 to 9007199254740991")  # the library takes it for a text
+    return to_count(value, "seed")
+
+
 def make_run_input(scenario: PathLike, names: Mapping[str, Any],
                    settings: Mapping[str, Any]) -> dict[str, Any]:
-    given = {key: to_count(value, key) if key == "seed" else value for key, value in names.items() if value is not None}
-    return {**given, "scenario": scenario, "settings": list(list_settings(settings))}
+    given = {key: to_seed(value) if key == "seed" else value for key, value in names.items() if value is not None}
+    return {**take_given(given), "scenario": to_path(scenario, "scenario"), "settings": list(list_settings(settings))}

@@ -76,10 +76,9 @@ def sweep(scenario: PathLike, *, vary: Mapping[str, Values], tire: Name = None, 
           **settings: Any) -> SweepResult:
     """Runs a scenario at every point of a grid: sweep("iso_28580", tire="a50", vary={"pressure_kPa": [210, 250]}).
 
-    :members RunInput
+    :members RunInput as the scenario or the run file has it
     * vary: by name of a setting its values: a list, a range, an array, or a text such as "210:310:20"; also of "tire".
     * shown_results: results in the tables and charts of the report; where there are none, those that change.
-    * threads: 0: as many as the machine has.
     """
     names = {"tire": tire, "rig": rig, "vehicle": vehicle, "fidelity": fidelity, "baseline": baseline,
              "sensors": sensors, "seed": seed}

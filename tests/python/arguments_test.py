@@ -1,9 +1,11 @@
 """Every public function refuses an argument of a wrong type by a TypeError of its own, which names the argument."""
 
+import datetime
 import decimal
 import fractions
 import inspect
 import os
+import pathlib
 import types
 import unittest
 
@@ -22,14 +24,15 @@ class Unlike:
 
 
 # By the annotation of an argument: values of a wrong type, then values of the right type that cannot be right.
-TEXTS = [Unlike(), 5, 1.5, ["a"], {"a": 1}]
+PATHS = [Unlike(), 5, 1.5, ["a"], {"a": 1}, datetime.date(2026, 3, 2), np.array("a"), {"a"}]
+TEXTS = [*PATHS, pathlib.Path("a")]
 BAD_TEXTS = ["a\0b", b"a\0b", "a\ud800"]
 NUMBERS = [Unlike(), "1.5", [1.5], True, np.True_, 1j]
 BAD_NUMBERS = [HUGE]
 FLAGS = [Unlike(), "no", 5, 1, 0, 1.0, None, [True], np.array([True, False])]
 COUNTS = [Unlike(), "many", 1.5, [1], True, np.float64(1)]
 BAD_COUNTS = [2**70, -2**70, LONG]
-LISTS = [Unlike(), 5, [Unlike()], [5]]
+LISTS = [Unlike(), 5, [Unlike()], [5], np.array("a"), {"a"}, frozenset("ab"), {"a": 1}]
 DICTS = [Unlike(), 5, ["a"], "a"]
 KINDS = {
     "bool": (FLAGS, []),
@@ -37,21 +40,21 @@ KINDS = {
     "float": (NUMBERS, BAD_NUMBERS),
     "str": (TEXTS, BAD_TEXTS),
     "str | int": ([Unlike(), 1.5, ["a"], True], BAD_TEXTS),
-    "PathLike": (TEXTS, BAD_TEXTS),
-    "Name": (TEXTS, BAD_TEXTS),
-    "MeasurementSet | PathLike": (TEXTS, BAD_TEXTS),
+    "PathLike": (PATHS, BAD_TEXTS),
+    "Name": (PATHS, BAD_TEXTS),
+    "MeasurementSet | PathLike": (PATHS, BAD_TEXTS),
     "Sequence[str]": (LISTS, []),
     "Sequence[PathLike]": ([*LISTS, "a"], []),
     "Mapping[str, str]": ([*DICTS, {"a": 5}, {5: "a"}], []),
     "Mapping[str, float]": ([*DICTS, {"load_N": "a"}, {5: 1.0}], []),
-    "Mapping[str, Values]": ([*DICTS, {"pressure_kPa": 210}, {"pressure_kPa": [Unlike()]}, {5: [1]}], []),
-    "Abc": ([Unlike(), 5, "abc", [1, 2], ["a", "b", "c"], [1, 2, HUGE]], []),
-    "tuple[Abc, Abc]": ([Unlike(), 5, (1, 2), ([1, 2], [3, 4])], []),
-    "tuple[float, float]": ([Unlike(), 5, (1,), ("a", "b")], []),
-    "tuple[float, float, float]": ([Unlike(), 5, (1, 2)], []),
+    "Mapping[str, Values]": ([*DICTS, {"pressure_kPa": 210}, {"pressure_kPa": [Unlike()]}, {5: [1]},
+                              {"pressure_kPa": np.array(5)}, {"pressure_kPa": {210, 250}}], []),
+    "Abc": ([Unlike(), 5, "abc", [1, 2], ["a", "b", "c"], [1, 2, HUGE], np.array(5), {1, 2, 3}], []),
+    "tuple[Abc, Abc]": ([Unlike(), 5, (1, 2), ([1, 2], [3, 4]), np.array(5), (np.array(5), np.array(6))], []),
+    "tuple[float, float]": ([Unlike(), 5, (1,), ("a", "b"), np.array(5), {1, 2}], []),
+    "tuple[float, float, float]": ([Unlike(), 5, (1, 2), np.array(5), {1, 2, 3}], []),
     "Progress": ([Unlike(), "yes", 1], []),
 }
-NAMES_OF_RUNS = ("seed",)  # numbers of any size that the library reads as a text
 
 
 class Arguments(InFolder):
@@ -137,7 +140,7 @@ class Arguments(InFolder):
         with self.assertRaises(errors) as caught:
             function(**{**arguments, name: value})
         message = str(caught.exception)
-        self.assertNotRegex(message, r"incompatible function arguments|Unable to cast|std::|object is not")
+        self.assertNotRegex(message, r"incompatible function arguments|Unable to cast|std::|object is not|0-d|unsized")
         self.assertLess(len(message), 1000)
         return message
 
@@ -148,16 +151,16 @@ class Arguments(InFolder):
                     continue
                 kind = parameter.annotation.removesuffix(" | None")
                 wrong, bad = KINDS[kind]
+                if parameter.default is parameter.empty:
+                    wrong = [*wrong, None]
                 for value in wrong:
-                    if kind != "bool" and value is None:
-                        continue
                     with self.subTest(f"{call}: {name}", value=repr(value)[:50]):
                         message = self.refuse(TypeError, function, arguments, name, value)
                         self.assertRegex(message, f"argument '{name}(: [^']*)?'")
                         self.assertRegex(message, "expected")
+                        if kind in ("PathLike", "Name", "str"):
+                            self.assertEqual("path is expected" in message, kind != "str", message)
                 for value in bad:
-                    if name in NAMES_OF_RUNS and value is not LONG:
-                        continue
                     with self.subTest(f"{call}: {name}", value=repr(value)[:50] if value is not LONG else "LONG"):
                         message = self.refuse(rollrig.InputError, function, arguments, name, value)
                         self.assertRegex(message, f"argument '{name}(: [^']*)?'")
@@ -174,15 +177,26 @@ class Arguments(InFolder):
         with self.assertRaisesRegex(TypeError, "argument 'measured': unexpected key 'laod_N'"):
             rollrig.convert(force_N=32, measured={"laod_N": 4000}, wanted={})
 
+    def test_that_name_no_folder_of_assets_are_refused(self):
+        for call in (lambda: rollrig.assets("tyres"), lambda: rollrig.find_asset("tyres", "a50")):
+            with self.assertRaises(rollrig.InputError) as caught:
+                call()
+            self.assertEqual((caught.exception.key, caught.exception.nearest), ("folder", "tires"))
+        self.assertIn("udds", rollrig.assets("cycles"))
+
     def test_whose_key_would_set_another_setting_is_refused(self):
         for key in ("pressure_kPa=300 #", "a=b", "pressure kPa", ""):
             with self.assertRaises(rollrig.InputError, msg=key):
                 rollrig.run("iso_28580", tire="a50", **{key: 210})
 
     def test_that_is_a_place_without_access_is_an_input_error(self):
-        for call in (rollrig.MeasurementSet, rollrig.validate, rollrig.find_sets):
-            with self.assertRaises(rollrig.InputError, msg=call.__name__):
-                call("x" * 300 + "/set")
+        os.symlink("loop", self.folder / "loop")  # to itself
+        calls = {"MeasurementSet": rollrig.MeasurementSet, "compare": lambda path: rollrig.compare([path, "a50"]),
+                 "find_sets": rollrig.find_sets, "regress": rollrig.regress, "validate": rollrig.validate}
+        for name, call in calls.items():
+            for path in ("x" * 300 + "/set", self.folder / "loop"):
+                with self.assertRaisesRegex(rollrig.InputError, "cannot (read|access) '", msg=name):
+                    call(path)
 
     def test_that_are_settings_are_named_too(self):
         for value in (Unlike(), [Unlike()], [{"a": 1}], 1j):
@@ -197,6 +211,39 @@ class Arguments(InFolder):
         usual = rollrig.run("iso_28580", pressure_kPa=210.5, **QUICK)
         for value in (decimal.Decimal("210.5"), fractions.Fraction(421, 2), np.float64(210.5), np.array(210.5), "210.5", b"210.5"):
             self.assertEqual(rollrig.run("iso_28580", pressure_kPa=value, **QUICK).json, usual.json)
+
+    def test_that_no_float_can_hold_are_refused(self):
+        for value in (HUGE, fractions.Fraction(HUGE), decimal.Decimal(HUGE), decimal.Decimal("sNaN")):
+            with self.assertRaises(rollrig.InputError) as caught:
+                rollrig.run("iso_28580", pressure_kPa=value, **QUICK)
+            self.assertEqual((caught.exception.key, caught.exception.allowed),
+                             ("pressure_kPa", "a number that a float can hold"))
+            self.assertIn("\n  allowed  a number that a float can hold", str(caught.exception))
+
+    def test_that_are_effects_are_dicts(self):
+        usual = rollrig.run("iso_28580", **QUICK)
+        for none in ({}, None):
+            self.assertEqual(rollrig.run("iso_28580", effects=none, **QUICK).json, usual.json)
+        for value in ("bearing_warmup", ["bearing_warmup"], [], True):
+            with self.assertRaisesRegex(TypeError, "argument 'effects': a dict is expected, such as .\"bearing_warmup"):
+                rollrig.run("iso_28580", effects=value, **QUICK)
+        for value in (True, [], 0.02):
+            with self.assertRaisesRegex(TypeError, "argument 'effects.bearing_warmup': a dict is expected"):
+                rollrig.run("iso_28580", effects={"bearing_warmup": value}, **QUICK)
+        self.assertNotEqual(rollrig.run("iso_28580", effects={"bearing_warmup": {}}, **QUICK).json, usual.json)
+
+    def test_without_an_order_are_refused(self):
+        for value in ({80, 120}, frozenset([80, 120])):
+            with self.assertRaisesRegex(TypeError, r"argument 'speeds_km_h': .* \(a set has no order;"):
+                rollrig.run("speed_sweep", tire="a50", speeds_km_h=value)
+        keys = dict.fromkeys([80, 120]).keys()  # they have an order
+        given = {"fidelity": "quasi_static", "tire": "a50", "warm_up_min": 5, "settle_min": 0}
+        self.assertEqual(rollrig.run("speed_sweep", speeds_km_h=keys, **given).json,
+                         rollrig.run("speed_sweep", speeds_km_h=[80, 120], **given).json)
+
+    def test_that_are_names_of_effects_may_be_one_text(self):
+        self.assertEqual(rollrig.make_fmu("a50", effects="slip_loss, toe_camber_drag"),
+                         rollrig.make_fmu("a50", effects=["slip_loss", "toe_camber_drag"]))
 
     def test_that_numpy_made_are_taken(self):
         given = {"mass_kg": 1500, "uncertainty": True, "monte_carlo": 1000, "seed": 3, "threads": 1}
