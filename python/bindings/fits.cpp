@@ -139,9 +139,12 @@ void bind_fits(py::module_& module) {
   module.def("fit_road_load", &fit_coastdowns);
   module.def("calc_default_road_load", &calc_default_road_load_fit);
   module.def("fit_law", &fit_law);
-  module.def("fit_drum_coastdown", [](const std::string& set, const std::string& data, bool skip_bad_rows) {
-    return std::make_shared<Report>(
-        call(py::none(), [&](const Progress&) { return fit_drum_coastdown(set, data, to_bad_rows(skip_bad_rows)); }));
+  module.def("fit_drum_coastdown", [](const py::object& show, const std::string& set, const std::string& data,
+                                      bool skip_bad_rows, const py::dict& uncertainty) {
+    const UncertaintyOptions asked = read_uncertainty(uncertainty);
+    return std::make_shared<Report>(call(show, [&](const Progress& progress) {
+      return fit_drum_coastdown(set, data, to_bad_rows(skip_bad_rows), asked, progress);
+    }));
   });
 }
 

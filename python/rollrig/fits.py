@@ -177,12 +177,17 @@ def fit_j1269(path: PathLike, *, proportional: bool = False, maximum_load_N: flo
                                     take_given(given)))
 
 
-def fit_drum_coastdown(set: PathLike, *, data: PathLike | None = None, skip_bad_rows: bool = False) -> Report:
+def fit_drum_coastdown(set: PathLike, *, data: PathLike | None = None, skip_bad_rows: bool = False,
+                       uncertainty: bool = False, monte_carlo: int = 0, seed: int = 1, threads: int = 0,
+                       progress: Progress = None) -> Report:
     """
     :api fit_drum_coastdown
 
     * set: file of a set of coast-downs (.toml).
     * data: folder of its CSV files; None: that of the set.
+    :members UncertaintyOptions
     """
     logs = to_path("" if data is None else data, "data")
-    return Report(_rollrig.fit_drum_coastdown(to_path(set, "set"), logs, to_skip(skip_bad_rows)))
+    with progress_display(progress) as show:
+        return Report(_rollrig.fit_drum_coastdown(show, to_path(set, "set"), logs, to_skip(skip_bad_rows),
+                                                  make_uncertainty_options(uncertainty, monte_carlo, seed, threads)))

@@ -179,6 +179,8 @@ class Fits(InFolder):
         self.assertNotEqual(fit.json, rollrig.fit_road_load(file, mass_kg=1500, **{**asked, "seed": 6}).json)
         self.check(rollrig.evaluate_road_load(file, "wltp", mass_kg=1500, **asked), "fit", "road-load", file, "--mass",
                    1500, "--method", "wltp", *words)
+        coasts = EXAMPLES / "drum_coastdown" / "coasts.toml"
+        self.check(rollrig.fit_drum_coastdown(coasts, **asked), "fit", "drum-coastdown", coasts, *words)
         for law, call in (("j2452", rollrig.fit_j2452), ("j1269", rollrig.fit_j1269)):
             points = EXAMPLES / f"{law}_points.csv"
             self.check(call(points, **asked), "fit", law, points, *words)
