@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include <boost/algorithm/string/split.hpp>
+#include <boost/algorithm/string/trim.hpp>
 
 #include "api/data.h"
 #include "api/run_items.h"
@@ -105,7 +106,7 @@ std::vector<campaigns::Factor> read_list(const std::string& path) {
   if (path.empty()) return factors;
   const CsvTable table = CsvTable::read(path);
   for (const std::string& column : table.columns()) {
-    factors.push_back({column, campaigns::Factor::Kind::kValues, table.text(column)});
+    factors.push_back({boost::algorithm::trim_copy(column), campaigns::Factor::Kind::kValues, table.text(column)});
     const auto empty = std::find(factors.back().values.begin(), factors.back().values.end(), "");
     if (empty == factors.back().values.end()) continue;
     throw table.cell_error(static_cast<std::size_t>(empty - factors.back().values.begin()), column,
@@ -249,6 +250,9 @@ std::size_t read_count(const Json& json, const char* key, const std::string& pat
 
 CampaignDefinition CampaignDefinition::read(const std::string& content, const std::string& path) {
   const Json json = parse_json(content, path);
+  if (!json.is_object() || !json.contains("format")) {
+    throw InputError({"this is no file of a campaign", path, 0, "format", "", "what rollrig campaign new writes", ""});
+  }
   CampaignDefinition definition;
   try {
     if (json.at("format") != kCampaignFormat && json.at("format") != kFirstCampaignFormat) {

@@ -80,7 +80,13 @@ std::vector<std::string> write_definition(const std::string& folder, const std::
   CampaignDefinition definition = make();
   const CampaignItems::Check found = make_items(definition)->check();
   definition.files = found.files;
-  write_folder(folder, {{kCampaignFileName, definition.to_text()}});
+  try {
+    write_folder(folder, {{kCampaignFileName, definition.to_text()}});
+  } catch (const InputError& error) {  // another process has made it meanwhile
+    InputProblem problem = error.problem();
+    problem.allowed = "a new or an empty folder";
+    throw InputError(problem);
+  }
   return found.warnings;
 }
 
@@ -104,10 +110,13 @@ ItemCampaign::ItemCampaign(const std::string& folder) : data_(std::make_shared<D
 CampaignState ItemCampaign::carry_out(const CampaignPart& part, int threads, const Progress& progress) const {
   require_threads(threads);
   const std::unique_ptr<CampaignItems> items = data_->make_watched_items();
-  const auto advance = [&progress](double done) {
+  double last = 0.0;
+  const auto advance = [&](double done) {
+    last = done;
     if (progress) progress(done, "");
   };
   const campaigns::Tally tally = campaigns::carry_out_items(*items, data_->folder, to_part(part), threads, advance);
+  if (last < 1.0) advance(1.0);  // there was nothing to do
   const std::string of = part.count == 1
                              ? data_->folder.path
                              : fmt::format("{}, part {} of {}", data_->folder.path, part.number, part.count);
@@ -128,7 +137,12 @@ CampaignState ItemCampaign::merge() const {
   const std::vector<std::string> files = data_->list_filled_files();
   const std::string merged = (fs::path(data_->folder.path) / "results.sqlite").string();
   if (files == std::vector<std::string>{merged}) return read_state();
-  campaigns::read_state(data_->folder, data_->items->count());  // throws where a file has items that are none of these
+  // Throws where a file has items that are none of these.
+  const std::vector<std::string> running = campaigns::read_state(data_->folder, data_->items->count()).running;
+  if (!running.empty()) {
+    throw InputError({"a process writes results of this campaign now", running.front(), 0, "", "",
+                      "to wait until it has ended; see rollrig campaign status", ""});
+  }
   // What an earlier merge that was cut short has left there are records of this campaign, too.
   const std::string partial = merged + ".partial";
   std::vector<bool> is_merged(data_->items->count());
@@ -199,7 +213,7 @@ Export ItemCampaign::make_export() const {
   if (table.columns.has_failures) rows.add("failure", {table.failures});
   tree->add("format", {std::string("rollrig-campaign-export/1")});
   tree->add("items", {rows});
-  tree->add("definition", {data_->folder.definition});
+  tree->add("definition", {data_->content});
   return {[tree] { return exports::make_mat(*tree); }, [tree] { return exports::make_hdf5(*tree); }};
 }
 

@@ -44,7 +44,7 @@ OpenCampaign open_campaign(const std::string& folder) {
   const std::string content = read_text_file(path);
   const CampaignDefinition definition = CampaignDefinition::read(content, path);
   try {
-    return {definition, make_items(definition), {folder, content, definition.seed()}};
+    return {definition, content, make_items(definition), {folder, calc_sha256(content), definition.seed()}};
   } catch (const InputError& error) {  // of a design that somebody has changed by hand
     InputProblem problem = error.problem();
     problem.file = path;

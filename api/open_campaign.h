@@ -13,6 +13,7 @@ constexpr const char* kCampaignFileName = "campaign.json";
 
 struct OpenCampaign {
   CampaignDefinition definition;
+  std::string content;  // of campaign.json
   std::unique_ptr<CampaignItems> items;
   campaigns::CampaignFolder folder;
 

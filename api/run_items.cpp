@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "api/data.h"
@@ -14,6 +16,30 @@ namespace rollrig {
 namespace {
 
 constexpr std::size_t kMostChecked = 1000;  // Assumed: takes some seconds
+
+/// The places of values that tell whether all of them are allowed: the least and the largest number, the first one that
+/// is not whole, and each word once.
+std::set<std::size_t> list_telling(const std::vector<std::string>& values) {
+  std::map<std::string, std::size_t> words;
+  std::optional<std::size_t> least, largest, broken;
+  const auto number_at = [&values](std::size_t place) { return parse_number(values[place]).value_or(0.0); };
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::optional<double> number = parse_number(values[i]);
+    if (!number.has_value()) {
+      words.emplace(values[i], i);
+      continue;
+    }
+    if (!least.has_value() || *number < number_at(*least)) least = i;
+    if (!largest.has_value() || *number > number_at(*largest)) largest = i;
+    if (!broken.has_value() && *number != std::floor(*number)) broken = i;
+  }
+  std::set<std::size_t> places;
+  for (const std::optional<std::size_t>& place : {least, largest, broken}) {
+    if (place.has_value()) places.insert(*place);
+  }
+  for (const auto& [word, place] : words) places.insert(place);
+  return places;
+}
 
 }  // namespace
 
@@ -133,8 +159,13 @@ void RunItems::check_at(const std::vector<std::string>& values) const {
 }
 
 void RunItems::check_list() const {
-  for (std::size_t item = 0; item < count(); ++item) {
-    if (count() > kMostChecked && item > 0 && item + 1 < count()) continue;
+  std::set<std::size_t> rows;
+  if (count() <= kMostChecked) {
+    for (std::size_t item = 0; item < count(); ++item) rows.insert(item);
+  } else {
+    for (const campaigns::Factor& factor : factors_) rows.merge(list_telling(factor.values));
+  }
+  for (const std::size_t item : rows) {
     try {
       prepare(calc_values(item));
     } catch (const InputError& error) {
@@ -178,10 +209,19 @@ void RunItems::check_combinations() const {
   const auto has_values = [](const campaigns::Factor& factor) {
     return factor.kind == campaigns::Factor::Kind::kValues;
   };
-  if (std::all_of(factors_.begin(), factors_.end(), has_values)) {
-    for (std::size_t item = 0; count() <= kMostChecked && item < count(); ++item) check_at(calc_values(item));
-    check_at(calc_values(0));
-    check_at(calc_values(count() - 1));
+  if (!std::all_of(factors_.begin(), factors_.end(), has_values)) return;
+  if (count() <= kMostChecked) {
+    for (std::size_t item = 0; item < count(); ++item) check_at(calc_values(item));
+    return;
+  }
+  check_at(calc_values(0));
+  check_at(calc_values(count() - 1));
+  for (std::size_t f = 0; f < factors_.size(); ++f) {
+    for (const std::size_t place : list_telling(factors_[f].values)) {
+      std::vector<std::string> values = find_usual_values();
+      values[f] = factors_[f].values[place];
+      check_at(values);
+    }
   }
 }
 

@@ -38,9 +38,9 @@ class RunItems : public CampaignItems {
   std::vector<std::string> list_keys() const override;
   /// The value of each factor.
   std::vector<std::string> calc_values(std::size_t item) const override { return design_->calc_values(item); }
-  /// Reads and prepares items: of a grid or a list all, if they are at most 1000, else the first, the last, and one
-  /// with each word or path that a factor takes; of draws the item at the median of each factor. Carries out one item,
-  /// in the quicker fidelity.
+  /// Reads and prepares items: of a grid or a list all, if they are at most 1000, else those with the least and the
+  /// largest number of each factor, with a number that is not whole, and with each word; of draws the item at the
+  /// median of each factor. Carries out one item, in the quicker fidelity.
   Check check() const override;
   void check_briefly(bool has_same_assets) const override;
   void learn_names(const Json& result) override { flattener_.learn_names(result); }

@@ -219,7 +219,7 @@ namespace {
 std::vector<campaigns::Record> carry_out_points(const SweepItems& items, std::uint64_t seed,
                                                 const std::function<void(double)>& advance) {
   const SweepInput& input = items.input();
-  const campaigns::CampaignFolder folder{input.unfinished_folder, items.define(seed), seed};
+  const campaigns::CampaignFolder folder{input.unfinished_folder, calc_sha256(items.define(seed)), seed};
   std::vector<campaigns::Record> records(items.count());
   const auto add = [&records](const campaigns::Record& record) { records.at(record.item) = record; };
   if (input.unfinished_folder.empty() ||

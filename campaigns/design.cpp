@@ -257,10 +257,10 @@ void check(const DesignInput& input) {
   for (auto factor = input.factors.begin(); factor != input.factors.end(); ++factor) {
     const auto is_same = [&](const Factor& other) { return other.key == factor->key; };
     if (std::any_of(input.factors.begin(), factor, is_same)) {
-      throw bad_design(fmt::format("'{}' is a factor twice", factor->key), "--draw", factor->key, "each factor once");
+      throw bad_design(fmt::format("'{}' is a factor twice", factor->key), "factors", factor->key, "each factor once");
     }
     if (factor->key.empty() || factor->key.find_first_of(" \t\n=") != std::string::npos) {
-      throw bad_design(fmt::format("'{}' is no key of a setting", factor->key), "--draw", factor->key,
+      throw bad_design(fmt::format("'{}' is no key of a setting", factor->key), "factors", factor->key,
                        "a key as --set has it");
     }
     const bool is_interval = factor->kind == Factor::Kind::kUniform && factor->first < factor->second;

@@ -99,23 +99,25 @@ struct DoneItems {
     return in_use;
   }
 
-  /// Of a part alone, as the next one: every sixteenth item, then their successors, and so on. In a grid, the factor on
-  /// which the time of an item depends may change once; so a tenth of the work tells the time of the rest nevertheless.
+  /// Of a part alone, as the next one. Steps of a golden section through the part, so that those of any stretch of the
+  /// work are spread evenly over it and over the values of each factor of a grid: a tenth of the work then tells the
+  /// time of the rest, whatever factor the time of an item depends on.
   std::vector<std::size_t> list_open(const Part& part) const {
-    constexpr std::size_t kPasses = 16;
+    const std::size_t items = part.count_of(is_done.size());
+    auto step = std::max<std::size_t>(1, static_cast<std::size_t>(0.6180339887498949 * static_cast<double>(items)));
+    while (std::gcd(step, items) > 1) ++step;
     std::vector<std::size_t> open;
-    for (std::size_t pass = 0; pass < kPasses; ++pass) {
-      for (std::size_t item = part.number - 1 + pass * part.count; item < is_done.size();
-           item += kPasses * part.count) {
-        if (!is_done[item]) open.push_back(item);
-      }
+    for (std::size_t i = 0; i < items; ++i) {
+      const std::size_t item = part.item_of(i * step % items);
+      if (!is_done[item]) open.push_back(item);
     }
     return open;
   }
 
   Tally count(const Part& part) const {
     Tally tally{part.count_of(is_done.size()), 0, 0};
-    for (std::size_t item = part.number - 1; item < is_done.size(); item += part.count) {
+    for (std::size_t block = 0; block < tally.items; ++block) {
+      const std::size_t item = part.item_of(block);
       if (is_done[item]) ++tally.done;
       if (has_failed[item]) ++tally.failed;
     }

@@ -42,7 +42,7 @@ class ItemList {
 /// Where a campaign is, and what it is.
 struct CampaignFolder {
   std::string path;
-  std::string definition;  // content of its campaign.json
+  std::string definition;  // tells its results from those of others: SHA-256 of what defines it, such as campaign.json
   std::uint64_t seed = 1;  // from which those of the items follow
 
   /// The file of a part's results: "results_0003_of_0010.sqlite".

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 #include "sim/core/error.h"
 #include "sim/core/text.h"
@@ -140,7 +141,22 @@ std::size_t read_digits(const std::string& text) {
   return error == std::errc() && stop == end ? number : 0;
 }
 
+/// A number without a period. Source: Steele, Lea, Flood, OOPSLA 2014, SplitMix64
+std::uint64_t mix(std::uint64_t number) {
+  number += 0x9e3779b97f4a7c15U;
+  number = (number ^ (number >> 30U)) * 0xbf58476d1ce4e5b9U;
+  number = (number ^ (number >> 27U)) * 0x94d049bb133111ebU;
+  return number ^ (number >> 31U);
+}
+
 }  // namespace
+
+std::size_t Part::item_of(std::size_t block) const { return block * count + (number - 1 + mix(block) % count) % count; }
+
+std::size_t Part::count_of(std::size_t items) const {
+  const std::size_t blocks = items / count;
+  return blocks + (item_of(blocks) < items ? 1 : 0);
+}
 
 Part read_part(const std::string& text) {
   const std::size_t slash = std::min(text.find('/'), text.size());

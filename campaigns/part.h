@@ -8,15 +8,18 @@
 
 namespace rollrig::campaigns {
 
-/// Part `number` of `count` parts, from 1. It has the items number - 1, number - 1 + count, number - 1 + 2 count, ...
-/// Neighboring items, which often take equally long, thus go to different processes.
+/// Part `number` of `count` parts, from 1. It has one of the first `count` items, one of the next `count` items, and so
+/// on. Neighboring items, which often take equally long, thus go to different processes. Which one it has changes from
+/// block to block without a period, so that the values of a grid's last factor are spread over all parts, too.
 struct Part {
   std::size_t number = 1;
   std::size_t count = 1;
 
-  bool has(std::size_t item) const { return item % count == number - 1; }
+  /// Its item among those from `block` * count on.
+  std::size_t item_of(std::size_t block) const;
+  bool has(std::size_t item) const { return item_of(item / count) == item; }
   /// Of so many items, how many it has.
-  std::size_t count_of(std::size_t items) const { return items / count + (items % count >= number ? 1 : 0); }
+  std::size_t count_of(std::size_t items) const;
 };
 
 /// "3/10" as --shard has it. Throws InputError.

@@ -162,7 +162,10 @@ bool has_tables(SQLite::Database& database, const std::string& path, const std::
                       "a file that rollrig campaign has written, or none at this place", ""});
   }
   SQLite::Statement query(database, "SELECT definition FROM campaign");
-  if (query.executeStep() && query.getColumn(0).getString() == definition) return true;
+  if (query.executeStep()) {
+    const std::string stored = query.getColumn(0).getString();
+    if (stored == definition || calc_sha256(stored) == definition) return true;  // the whole text in older files
+  }
   throw InputError(
       {"the results are those of another campaign", path, 0, "", "", "results of the campaign.json beside them", ""});
 }

@@ -35,7 +35,7 @@ struct Record {
 /// Source   sqlite.org/wal.html, "Use of WAL Without Shared-Memory"
 class Store {
  public:
-  /// Opens a file, or makes it. `definition` says what the campaign is. Throws InputError: the file is another
+  /// Opens a file, or makes it. `definition` is that of CampaignFolder. Throws InputError: the file is another
   /// campaign's, is no such file, cannot be written, or another process has it open.
   Store(const std::string& path, const std::string& definition);
   /// As close(), without an error where that fails: all records are then in the file and its log.

@@ -136,6 +136,12 @@ int campaign_run_command(const CampaignRunOptions& options) {
   if (options.is_over_mpi) start_over_mpi(options);
   const ItemCampaign campaign(options.folder);
   const CampaignPart part = choose_part(options.shard);
+  // mpirun and srun stop all other processes where one of them ends with another status than 0.
+  const bool is_one_of_several = options.shard.empty() && find_launched_part().value_or(CampaignPart{}).count > 1;
+  if (is_one_of_several && !options.output.json.empty() && options.output.json != "-") {
+    throw usage_error("each process would write this file", "--json", options.output.json,
+                      "rollrig campaign status --json afterwards");
+  }
   Output output(options.output);
   CampaignState state;
   try {
@@ -147,8 +153,6 @@ int campaign_run_command(const CampaignRunOptions& options) {
     return kInterrupted;
   }
   output.show(state);
-  // mpirun and srun stop all other processes where one of them ends with another status than 0.
-  const bool is_one_of_several = options.shard.empty() && find_launched_part().value_or(CampaignPart{}).count > 1;
   return state.failed == 0 || is_one_of_several ? kDone : kRunFailed;
 }
 
@@ -241,7 +245,9 @@ void add_new_campaign(CLI::App& campaign, Action& action) {
       ->add_option("--draw-sd", input.drawn_sd,
                    "tire, rig, vehicle, with commas: every number of that file beside its standard uncertainty, as a "
                    "normal distribution")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->get_option("--seed")->description("Seed of the draws; those of the items' sensors follow from it [1]");
   command->add_option("--design", input.design,
                       fmt::format("{} [grid; with --list, list; where something is drawn, monte_carlo]",
                                   fmt::join(campaign_designs(), ", ")));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "sim/core/columns.h"
@@ -29,11 +30,40 @@ ProgressLine::ProgressLine(std::string label, bool quiet, ProgressReader reader)
       active_(!quiet || reader == ProgressReader::kProgram),
       reader_(reader),
       terminal_(reader == ProgressReader::kPerson && isatty(STDERR_FILENO) != 0),
-      next_(start_ + (reader == ProgressReader::kProgram ? kForPrograms
-                      : terminal_                        ? kQuietOnTerminal
-                                                         : kQuietInLog)) {}
+      next_(start_ + (terminal_ ? kQuietOnTerminal : kQuietInLog)) {
+  if (reader_ == ProgressReader::kProgram) ticker_ = std::thread([this] { tell_program_each_second(); });
+}
 
-ProgressLine::~ProgressLine() { clear(); }
+ProgressLine::~ProgressLine() {
+  if (ticker_.joinable()) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      is_over_ = true;
+    }
+    over_.notify_all();
+    ticker_.join();
+  }
+  clear();
+}
+
+void ProgressLine::tell_program() {
+  std::string left = "null";
+  if (left_s_.has_value()) {
+    const double since_s = std::chrono::duration<double>(Clock::now() - last_).count();
+    left = fmt::format("{:.1f}", std::max(0.0, *left_s_ - since_s));
+  }
+  fmt::print(stderr, "{{\"done\":{:.4f},\"seconds_left\":{}}}\n", done_, left);
+  std::fflush(stderr);
+}
+
+void ProgressLine::tell_program_each_second() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  Clock::time_point next = start_ + kForPrograms;
+  while (!over_.wait_until(lock, next, [this] { return is_over_ || done_ >= 1.0; })) {
+    tell_program();
+    next += kForPrograms;
+  }
+}
 
 // Overwrites with spaces, since not every terminal knows the escape sequence.
 void ProgressLine::clear() {
@@ -44,10 +74,7 @@ void ProgressLine::clear() {
 bool ProgressLine::is_due() {
   last_ = Clock::now();
   if (last_ < next_) return false;
-  const Clock::duration pause = reader_ == ProgressReader::kProgram ? Clock::duration(kForPrograms)
-                                : terminal_                         ? Clock::duration(kBetweenUpdates)
-                                                                    : Clock::duration(kBetweenLines);
-  next_ = last_ + pause;
+  next_ = last_ + (terminal_ ? Clock::duration(kBetweenUpdates) : Clock::duration(kBetweenLines));
   return true;
 }
 
@@ -55,16 +82,20 @@ void ProgressLine::update(double done, const std::string& stage) {
   if (!active_) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!(done >= done_)) start_ = Clock::now();  // it begins again, or `done` is or was NaN
+  const bool was_over = done_ >= 1.0;
   done_ = done;
-  const bool is_end = done >= 1.0;  // which a person sees by the result
-  if (is_end ? reader_ == ProgressReader::kPerson : !is_due()) return;
-  const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();
   if (reader_ == ProgressReader::kProgram) {
-    if (done > 0.0) {
-      fmt::print(stderr, "{{\"done\":{:.4f},\"seconds_left\":{:.1f}}}\n", done, elapsed_s * (1.0 - done) / done);
+    last_ = Clock::now();
+    const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();
+    left_s_ = done > 0.0 ? std::optional(elapsed_s * (1.0 - done) / done) : std::nullopt;
+    if (done >= 1.0 && !was_over) {
+      tell_program();
+      over_.notify_all();
     }
     return;
   }
+  if (done >= 1.0 || !is_due()) return;  // a person sees the end by the result
+  const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();
   std::string text = label_;
   if (done > 0.0) {
     text += fmt::format("  {:.0f} %, about {} left", 100.0 * done, show_duration(elapsed_s * (1.0 - done) / done));

@@ -2,15 +2,18 @@
 /// Shows the progress of a command that takes longer than 2 s on a terminal, or 10 s in a log.
 
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <thread>
 
 #include "rollrig/progress.h"
 
 namespace rollrig::cli {
 
-/// Who reads the progress: a person, or a program, which gets lines of JSON, at most one a second and one at the end:
-/// {"done":0.3100,"seconds_left":12.3}
+/// Who reads the progress: a person, or a program, which gets a line of JSON each second and one at the end:
+/// {"done":0.3100,"seconds_left":12.3}. `seconds_left` is null where nothing is done yet.
 enum class ProgressReader { kPerson, kProgram };
 
 /// Writes to standard error. On a terminal, it updates one line, from 2 s on. Elsewhere, as in the log of a CI job, it
@@ -35,6 +38,10 @@ class ProgressLine {
 
   /// Whether it is time for another update; notes that one was made.
   bool is_due();
+  /// Writes the line for a program.
+  void tell_program();
+  /// Writes it each second, until the end.
+  void tell_program_each_second();
   void write_on_terminal(std::string text);
 
   std::string label_;
@@ -46,7 +53,11 @@ class ProgressLine {
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
   Clock::time_point next_;
+  std::optional<double> left_s_;  // at last_
+  bool is_over_ = false;
   std::mutex mutex_;
+  std::condition_variable over_;
+  std::thread ticker_;  // of a program
 };
 
 }  // namespace rollrig::cli

@@ -11,6 +11,7 @@
 
 #include "campaigns/store.h"
 #include "include/rollrig/error.h"
+#include "sim/core/file_io.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -87,6 +88,65 @@ TEST_CASE("parts, interruptions and other splits come to the same results", "[fa
   carry_out_items(rest, folder, {1, 1}, 2);
   CHECK(rest.count_carried_out() <= 50 - 17 - 10);
   CHECK(read_all(folder) == read_undisturbed());
+  CHECK(read_state(folder, 50).tally.done == 50);
+}
+
+/// 320 items, as of a grid whose last factor has 16 values; it remembers their order.
+class OrderedItems : public ItemList {
+ public:
+  std::size_t count() const override { return 320; }
+  Json describe(std::size_t item) const override { return {{"x", item}}; }
+  Json carry_out(std::size_t item, std::uint64_t) const override {
+    order_.push_back(item);
+    return {{"x", item}};
+  }
+  const std::vector<std::size_t>& order() const { return order_; }
+
+ private:
+  mutable std::vector<std::size_t> order_;
+};
+
+TEST_CASE("a tenth of the work has items with each value of each factor of a grid", "[fast]") {
+  for (const Part& part : {Part{1, 1}, Part{2, 3}}) {
+    INFO(part.number << " of " << part.count);
+    const TemporaryFolder at;
+    const OrderedItems list;
+    carry_out_items(list, {at.path(), "test", 11}, part, 1);
+    REQUIRE(list.order().size() == part.count_of(320));
+    CHECK(std::set<std::size_t>(list.order().begin(), list.order().end()).size() == list.order().size());
+    const std::size_t tenth = list.order().size() / 10;
+    std::set<std::size_t> of_last;
+    std::size_t in_first_half = 0;
+    for (std::size_t i = 0; i < tenth; ++i) {
+      of_last.insert(list.order()[i] % 16);
+      if (list.order()[i] < 160) ++in_first_half;
+    }
+    CHECK(of_last.size() >= std::min<std::size_t>(16, tenth * 6 / 10));
+    CHECK(in_first_half >= tenth / 2 - 1);
+    CHECK(in_first_half <= tenth / 2 + 2);
+  }
+}
+
+TEST_CASE("each part of a grid has all values of its last factor, also where there are as many as parts", "[fast]") {
+  for (std::size_t number = 1; number <= 10; ++number) {
+    std::set<std::size_t> values;
+    const Part part{number, 10};
+    for (std::size_t item = 0; item < 1000; ++item) {
+      if (part.has(item)) values.insert(item % 10);
+    }
+    CHECK(values.size() == 10);
+  }
+}
+
+TEST_CASE("a file of results does not grow with what defines the campaign", "[fast]") {
+  const TemporaryFolder at;
+  const std::string definition(1000000, 'x');
+  const std::string told = rollrig::calc_sha256(definition);
+  { const Store older(at.file("results_0001_of_0002.sqlite"), definition); }  // as files had it
+  const CampaignFolder folder{at.path(), told, 11};
+  carry_out_items(FakeItems(), folder, {1, 2}, 1);
+  carry_out_items(FakeItems(), folder, {2, 2}, 1);
+  CHECK(std::filesystem::file_size(folder.file_of({2, 2})) < 100000);
   CHECK(read_state(folder, 50).tally.done == 50);
 }
 

@@ -1,6 +1,7 @@
 // Campaigns at the command line: the same results in however many goes and processes.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -193,6 +194,56 @@ TEST_CASE("what is wrong with a factor is told of its option", "[fast]") {
                  " --draw load_N=normal:5000:9 --vary measurement_cycles=1,2,3 --design monte_carlo --points 4",
              at);
   run_to_end("campaign run c", at);
+}
+
+TEST_CASE("of many items, the least and the largest number and each word of a factor are checked", "[fast]") {
+  const TemporaryFolder at;
+  std::string list = "ambient_degC,pressure_kPa\n";
+  for (int row = 0; row < 1200; ++row) list += row == 600 ? "200,250\n" : row == 700 ? "25,abc\n" : "25,250\n";
+  write_file(at.file("list.csv"), list);
+  const std::string start = std::string("campaign new c ") + kRun;
+  CHECK_THAT(flatten(run_program(start + " --list list.csv", at.path()).err), Catch::Contains("list.csv, line 602"));
+  write_file(at.file("list.csv"), list.replace(list.find("200,"), 4, "20,"));
+  CHECK_THAT(flatten(run_program(start + " --list list.csv", at.path()).err), Catch::Contains("list.csv, line 702"));
+  const ProgramResult grid =
+      run_program(start + " --vary ambient_degC=10:30:0.05 --vary pressure_kPa=250,2500,260", at.path());
+  CHECK(grid.status == 2);
+  CHECK_THAT(flatten(grid.err), Catch::Contains("where --vary") && Catch::Contains("2500"));
+}
+
+TEST_CASE("the header of a list may have spaces, and --draw-sd takes one word", "[fast]") {
+  const TemporaryFolder at;
+  write_file(at.file("list.csv"), "ambient_degC, pressure_kPa\n25,250\n20,240\n");
+  run_to_end(std::string("campaign new c ") + kRun + " --list list.csv", at);
+  run_to_end("campaign new --draw-sd tire d iso_28580 --tire a50 --fidelity quasi_static --points 3", at);
+}
+
+TEST_CASE("a program is told how far a campaign is, also where nothing is left to do", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun + " --vary ambient_degC=20,25", at);
+  run_to_end("campaign run c", at);
+  const ProgramResult again = run_program("campaign run c --progress --quiet", at.path());
+  CHECK(again.err == "{\"done\":1.0000,\"seconds_left\":0.0}\n");
+}
+
+TEST_CASE("a program is told each second how far a campaign is, also within an item", "[slow]") {
+  const TemporaryFolder at;
+  run_to_end("campaign new c sae_j1634 --tire a50 --vary ambient_degC=20,25", at);
+  const ProgramResult stopped =
+      run_program("campaign run c --progress --quiet --threads 1", at.path(), "timeout -s INT 5");
+  const Json first = Json::parse(stopped.err.substr(0, stopped.err.find('\n')));
+  CHECK(first["done"] == 0.0);
+  CHECK(first["seconds_left"].is_null());
+  CHECK(std::count(stopped.err.begin(), stopped.err.end(), '{') >= 3);
+}
+
+TEST_CASE("processes of one launcher do not write one file", "[fast]") {
+  const TemporaryFolder at;
+  run_to_end(std::string("campaign new c ") + kRun + " --vary ambient_degC=20,25", at);
+  const ProgramResult result = run_program("campaign run c --json c.json --threads 1", at.path(),
+                                           "OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=0");
+  CHECK(result.status == 2);
+  CHECK_THAT(flatten(result.err), Catch::Contains("each process would write this file"));
 }
 
 TEST_CASE("an export and a sensitivity say what they lack", "[fast]") {
