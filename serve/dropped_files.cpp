@@ -6,6 +6,7 @@
 #include "measurements/logs/guess.h"
 #include "rigs/rig_file.h"
 #include "serve/error_json.h"
+#include "serve/page_words.h"
 #include "sim/core/assets.h"
 
 namespace fs = std::filesystem;
@@ -76,7 +77,8 @@ const rigs::MachineKind& find_kind(const GuessOptions& options) {
 
 Json make_columns(const measurements::Guess& guess) {
   return make_list(guess.columns, [](const measurements::GuessedColumn& column) {
-    Json json{{"target", column.target.header()}, {"heading", column.heading}, {"reason", column.reason}};
+    Json json{
+        {"target", column.target.header()}, {"heading", column.heading}, {"reason", speak_of_page(column.reason)}};
     if (column.value.has_value()) {
       json["value"] = *column.value;
     } else {
@@ -108,9 +110,9 @@ Json guess_columns_json(const GuessOptions& options, const std::string& private_
     if (!options.rig.empty() || !options.vehicle.empty()) json["targets"] = list_targets(find_kind(options));
     const measurements::Guess guess = measurements::guess_logs(options);
     json["columns"] = make_columns(guess);
-    json["time"] = {{"heading", guess.time.heading}, {"reason", guess.time.reason}};
+    json["time"] = {{"heading", guess.time.heading}, {"reason", speak_of_page(guess.time.reason)}};
     json["guesses"] = make_list(measurements::list_guesses(guess), [](const measurements::GuessLine& line) {
-      return Json{{"subject", line.subject}, {"taken", line.taken}, {"reason", line.reason}};
+      return Json{{"subject", line.subject}, {"taken", line.taken}, {"reason", speak_of_page(line.reason)}};
     });
   } catch (const InputError&) {
     json["problem"] = make_error_json(std::current_exception(), private_part);

@@ -3,6 +3,9 @@
 #include <boost/algorithm/string/replace.hpp>
 
 #include <new>
+#include <regex>
+
+#include "serve/page_words.h"
 
 namespace rollrig::serve {
 namespace {
@@ -14,7 +17,8 @@ bool is_place(const std::string& file) {
 
 Json make_problem_json(const InputProblem& problem, const std::string& private_folder) {
   const auto open = [&](const std::string& text) {
-    return private_folder.empty() ? text : boost::algorithm::replace_all_copy(text, private_folder, "");
+    const std::string spoken = speak_of_page(text);
+    return private_folder.empty() ? spoken : boost::algorithm::replace_all_copy(spoken, private_folder, "");
   };
   Json json{{"what", open(problem.what)}};
   if (is_place(problem.file)) json["file"] = open(problem.file);
@@ -23,6 +27,11 @@ Json make_problem_json(const InputProblem& problem, const std::string& private_f
     if (!text.empty()) json[key] = open(text);
   };
   add("key", problem.key);
+  if (problem.key == "--rest") {  // what the page asks for
+    std::smatch run;
+    static const std::regex named("--rest (\\S+)=MINUTES");
+    if (std::regex_search(problem.allowed, run, named)) json["rest_before"] = run[1].str();
+  }
   add("value", problem.value);
   add("allowed", problem.allowed);
   add("nearest", problem.nearest);

@@ -12,6 +12,7 @@
 #include "rollrig/scaffold.h"
 #include "serve/dropped_files.h"
 #include "serve/live_run.h"
+#include "serve/page_words.h"
 #include "sim/core/error.h"
 
 namespace fs = std::filesystem;
@@ -126,7 +127,10 @@ GuessOptions SetDesk::read_options(int id, const Json& request) const {
   options.date_order = text_of(request, "date_order");
   options.rests_min = numbers_of(request, "rests_min");
   const auto cold = request.find("cold_pressure_kPa");
-  if (cold != request.end() && cold->is_number()) options.cold_pressure_kPa = cold->get<double>();
+  if (cold != request.end() && !cold->is_null()) {
+    if (!cold->is_number()) throw Refusal(400, "'cold_pressure_kPa' is not a number");
+    options.cold_pressure_kPa = cold->get<double>();
+  }
   return options;
 }
 
@@ -155,7 +159,9 @@ Json SetDesk::make_set(int id, const Json& request) {
   const FileCheck check = check_file(set_folder_of(id));
   const std::lock_guard<std::mutex> lock(mutex_);
   if (const auto at = sets_.find(id); at != sets_.end()) at->second.is_made = true;
-  return {{"what", check.what}, {"warnings", check.warnings}, {"is_good", check.is_good}, {"text", text}};
+  std::vector<std::string> warnings;
+  for (const std::string& warning : check.warnings) warnings.push_back(speak_of_page(warning));
+  return {{"what", check.what}, {"warnings", warnings}, {"is_good", check.is_good}, {"text", text}};
 }
 
 Json SetDesk::diagnose(int id, const Json& request) {

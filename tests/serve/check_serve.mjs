@@ -71,6 +71,18 @@ async function checkWrongNumber() {
   await page.until("!document.querySelector('.problem')");
 }
 
+/// Fields that are empty or hold no number say so beside them, and nothing is asked of the server.
+async function checkNoNumber() {
+  const set = (field, text) => page.evaluate(`(() => { const e = document.querySelector('${field}'); e.value = '${text}'; e.dispatchEvent(new Event('change', { bubbles: true })); })()`);
+  const beside = (field) => page.evaluate(`document.querySelector('${field}').closest('.control, .pairs > div').querySelector('.problem')?.textContent ?? ''`);
+  const field = (await page.evaluate("Boolean(document.querySelector('#cold'))")) ? '#cold' : '#setting-pressure_kPa-field';
+  await set(field, 'about 250');
+  check(/no number.*about 250/.test(await beside(field)), `what is no number is refused beside ${field}: ${await beside(field)}`);
+  await set(field, '');
+  const empty = await beside(field);
+  check(field === '#cold' ? empty === '' : /missing/.test(empty), `an empty ${field} is ${field === '#cold' ? 'as guessed' : 'refused beside it'}: ${empty}`);
+}
+
 async function checkEffectsAndTests() {
   const before = await page.evaluate(kRrc);
   await page.click('.controls .group:nth-of-type(2) > summary, details.group:has(.effects) > summary');
@@ -92,6 +104,10 @@ async function checkDrop() {
   await page.until("document.querySelector('#confirm:enabled')");
   const shown = await page.evaluate("document.querySelector('.columnstable').textContent");
   check(/Geschwindigkeit/.test(shown), 'the columns of the logs are guessed and shown');
+  await checkNoNumber();
+  await page.until("document.querySelector('#confirm:enabled')");
+  const told = await page.evaluate("document.querySelector('.setbench').textContent");
+  check(!/--[a-z]/.test(told), 'no option of the command line is named');
   await checkBoxes('columns of a dropped folder');
   await page.click('#confirm');
   await page.until("document.querySelector('#diagnose')");
@@ -120,6 +136,11 @@ try {
   await checkBoxes('controls and results');
   await checkSliders();
   await checkWrongNumber();
+  await checkNoNumber();
+  await page.type('#setting-pressure_kPa-field', '260');
+  await settled();
+  await page.click('.control.moved .reset');
+  await settled();
   await checkEffectsAndTests();
   const kept = await checkDrop();
   const own = new URL(server.address).origin;

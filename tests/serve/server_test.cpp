@@ -404,11 +404,16 @@ TEST_CASE("logs are guessed, and what they do not tell is asked", "[slow]") {
   const Json first = bench.post(at + "columns", Json::object());
   CHECK(first["kind"] == "logs");
   CHECK(first["headings"][2]["name"] == "Geschwindigkeit");
-  CHECK(first["problem"]["key"] == "--tire");
+  CHECK(first["problem"]["key"] == "tire");
+  CHECK(first.dump().find("--") == std::string::npos);  // a person on the page has no options
   Json said{{"tire", "tire.toml"}, {"rig", "rig.toml"}};
   const Json second = bench.post(at + "columns", said);
   CHECK_FALSE(second.contains("problem"));
   CHECK(second["columns"].size() >= 5);
+  CHECK(second.dump().find("--") == std::string::npos);
+  Json no_number = said;
+  no_number["cold_pressure_kPa"] = "250";
+  bench.post(at + "columns", no_number, 400);
   said["columns"] = {{"load_N", "Nr."}};  // a wrong correction is heard
   const Json third = bench.post(at + "columns", said);
   CHECK(third.dump().find("Nr.") != std::string::npos);

@@ -1,6 +1,7 @@
 // Which column of a log is which: guessed by the program, confirmed or corrected by the person.
 import { h } from '../dom.js';
 import { number } from '../format.js';
+import { makeNumberField } from './number_field.js';
 
 const kNone = '\u0000none';
 const kConstant = '\u0000constant';
@@ -23,10 +24,9 @@ function makeRow(target, { guessed, headings, said, onChange }) {
   h('option', { value: kNone, selected: shown === kNone }, guessed ? 'as guessed' : '\u2013'),
   headings.map((heading) => h('option', { value: heading.name, selected: shown === heading.name }, heading.name)),
   h('option', { value: kConstant, selected: shown === kConstant }, 'a constant'));
-  const constant = h('input', { type: 'number', step: 'any', class: 'field', value: isConstant ? guessed.value : '', hidden: shown !== kConstant, 'aria-label': `constant for ${target.name}`, onchange: () => {
-    if (!Number.isFinite(constant.valueAsNumber)) return;
+  const { field: constant, message } = makeNumberField({ value: isConstant ? guessed.value : '', hidden: shown !== kConstant, 'aria-label': `constant for ${target.name}`, onNumber: (value) => {
     delete said.columns[target.name];
-    said.values[target.name] = constant.valueAsNumber;
+    said.values[target.name] = value;
     onChange();
   } });
   const unit = h('input', { type: 'text', class: 'unitfield', value: guessed?.unit ?? said.units[target.name] ?? '', hidden: shown === kConstant || shown === kNone, 'aria-label': `unit of ${target.name} in the log`, onchange: () => {
@@ -36,7 +36,7 @@ function makeRow(target, { guessed, headings, said, onChange }) {
   } });
   const example = headings.find((heading) => heading.name === shown)?.examples.join('; ');
   return h('tr', { class: !guessed && target.is_needed ? 'open' : '' }, h('th', { scope: 'row', title: target.doc }, target.name, target.is_needed && h('span', { class: 'unit' }, ' needed')),
-    h('td', null, select, ' ', constant), h('td', null, unit), h('td', { class: 'examples' }, example || ''), h('td', { class: 'unit' }, guessed ? `${guessed.is_negative ? 'sign turned; ' : ''}${guessed.reason}` : ''));
+    h('td', null, select, ' ', constant, message), h('td', null, unit), h('td', { class: 'examples' }, example || ''), h('td', { class: 'unit' }, guessed ? `${guessed.is_negative ? 'sign turned; ' : ''}${guessed.reason}` : ''));
 }
 
 /// Where the time comes from.

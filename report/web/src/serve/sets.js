@@ -4,6 +4,7 @@ import { clockTime } from '../format.js';
 import { get, keptAddress, post, ProblemError, upload } from './api.js';
 import { bytesText, makeColumns, makeGuesses } from './columns.js';
 import { readChosen } from './drop.js';
+import { makeNumberField } from './number_field.js';
 import { makeProblem } from './problem.js';
 import { Results } from './results.js';
 import { capitalized } from './slider.js';
@@ -136,11 +137,19 @@ export class Sets {
       said.date_order = order.value;
       again();
     } }, ['', 'ymd', 'dmy', 'mdy'].map((one) => h('option', { value: one, selected: (said.date_order || '') === one }, one || 'as guessed')));
-    const cold = h('input', { type: 'number', id: 'cold', class: 'field', step: 'any', value: said.cold_pressure_kPa ?? '', onchange: () => {
-      said.cold_pressure_kPa = cold.value === '' ? undefined : cold.valueAsNumber;
+    const cold = makeNumberField({ id: 'cold', value: said.cold_pressure_kPa ?? '', mayBeEmpty: true, onNumber: (value) => {
+      said.cold_pressure_kPa = value;
       again();
     } });
-    return h('div', { class: 'pairs' }, h('label', null, 'Order of dates ', order), h('label', null, 'Pressure of the cold tire ', cold, ' kPa'));
+    const asked = this.found.problem?.rest_before;
+    const rests = [...new Set([...Object.keys(said.rests_min), ...(asked ? [asked] : [])])].map((run) => [run, makeNumberField({ 'data-rest': run, value: said.rests_min[run] ?? '', mayBeEmpty: true, onNumber: (value) => {
+      if (value === undefined) delete said.rests_min[run];
+      else said.rests_min[run] = value;
+      again();
+    } })]);
+    return h('div', { class: 'pairs' }, h('label', null, 'Order of dates ', order),
+      h('div', null, h('label', null, 'Pressure of the cold tire ', cold.field, ' kPa'), cold.message),
+      rests.map(([run, rest]) => h('div', null, h('label', null, `Rest before ${run} `, rest.field, ' min'), rest.message)));
   }
 
   async #validate() {

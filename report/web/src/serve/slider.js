@@ -1,6 +1,7 @@
 // A number with its slider, its field and a way back to the default.
 import { h } from '../dom.js';
 import { number } from '../format.js';
+import { notANumber, readNumber } from './number_field.js';
 import { makeProblem } from './problem.js';
 
 /// "Load accuracy" of "load accuracy".
@@ -17,9 +18,6 @@ function niceStep(span, positions) {
 }
 
 const rounded = (value, step) => Number((Math.round(value / step) * step).toPrecision(12));
-
-/// The number that a person has written, with a point or a comma; NaN where it is none.
-const readNumber = (text) => (text.trim() === '' ? NaN : Number(text.trim().replace(',', '.')));
 
 /// Ends of a slider about a default: an ordinary range of temperatures, else from four tenths to sixteen tenths of it.
 /// Assumed: what one tries; the field beside it takes every number that is allowed.
@@ -47,7 +45,7 @@ export class Slider {
     this.field.addEventListener('change', () => {
       const written = readNumber(this.field.value);
       if (Number.isFinite(written)) this.#take(written, onInput);
-      else this.setProblem({ what: 'this is no number', value: this.field.value, allowed: 'a number such as 1.5' });
+      else this.setProblem(notANumber(this.field.value));
     });
     this.reset.addEventListener('click', () => {
       this.value = null;
