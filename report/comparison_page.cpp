@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "comparison/comparison_json.h"
 #include "report/blocks.h"
 #include "report/readings.h"
+#include "report/time_scale.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
 
@@ -95,15 +97,17 @@ bool differ_alike(const ComparedValue& a, const ComparedValue& b) {
                     });
 }
 
-/// Values whose differences have a bar: no conditions of the test, nothing twice; those with an interval first, then
-/// those that differ most.
+/// Values whose differences have a bar: no conditions of the test, nothing twice; the main value first, then those with
+/// an interval, then those that differ most.
 std::vector<const ComparedValue*> choose_bars(const Comparison& comparison, const std::optional<std::size_t>& main) {
   constexpr std::size_t kMost = 10;  // as many have room
   std::vector<const ComparedValue*> candidates;
   for (const ComparedValue& value : comparison.values) {
     const bool is_of_list = value.name.find('.') != std::string::npos;  // or a number of a tire file
     const bool is_uncertainty = value.name.find("uncertainty") != std::string::npos;
-    if (!value.differences.front().percent.has_value() || value.unit == "s" || is_of_list || is_uncertainty) continue;
+    const bool is_main = main.has_value() && &value == &comparison.values[*main];
+    if (!value.differences.front().percent.has_value()) continue;
+    if (!is_main && (value.unit == "s" || is_of_list || is_uncertainty)) continue;
     if (*value.differences.front().percent == 0.0 || is_condition(value)) continue;
     candidates.push_back(&value);
   }
@@ -120,7 +124,7 @@ std::vector<const ComparedValue*> choose_bars(const Comparison& comparison, cons
     if (!is_known) chosen.push_back(value);
   }
   const auto weigh = [&](const ComparedValue* value) {
-    return std::pair(has_interval(value), std::abs(*value->differences.front().percent));
+    return std::tuple(value == main_value, has_interval(value), std::abs(*value->differences.front().percent));
   };
   std::stable_sort(chosen.begin(), chosen.end(),
                    [&](const ComparedValue* a, const ComparedValue* b) { return weigh(a) > weigh(b); });
@@ -176,6 +180,26 @@ Json make_overlay_series(const std::string& name, const OverlayLine& line, std::
   return {{"name", name}, {"t", t}, {"y", y}};
 }
 
+/// Of each run which rows set the scale; empty where the overlay is not of a drum.
+std::vector<std::vector<bool>> find_overlay_rows(const Overlay& overlay) {
+  const auto find = [&overlay](const char* channel) -> const OverlayPanel* {
+    for (const OverlayPanel& panel : overlay.panels) {
+      if (panel.channel == channel) return &panel;
+    }
+    return nullptr;
+  };
+  const OverlayPanel* load = find("load_N");
+  const OverlayPanel* speed = find("speed_km_h");
+  std::vector<std::vector<bool>> counts;
+  if (load == nullptr || speed == nullptr || find("drum_torque_Nm") == nullptr) return counts;
+  for (std::size_t i = 0; i < load->lines.size(); ++i) {
+    std::vector<double> speed_m_s = speed->lines[i].values;
+    for (double& value : speed_m_s) value /= kKmhPerMs;
+    counts.push_back(find_scale_rows(load->lines[i].time_s, load->lines[i].values, speed_m_s));
+  }
+  return counts;
+}
+
 Block make_overlay_block(const Comparison& comparison, const Overlay& overlay, std::size_t most) {
   Json phases = Json::array();
   std::vector<std::pair<double, double>> spans_s;
@@ -183,6 +207,7 @@ Block make_overlay_block(const Comparison& comparison, const Overlay& overlay, s
     spans_s.emplace_back(phase.start_s, phase.end_s);
     phases.push_back({{"name", phase.name}, {"start_s", rounded(phase.start_s)}, {"end_s", rounded(phase.end_s)}});
   }
+  const std::vector<std::vector<bool>> counts = find_overlay_rows(overlay);
   Json panels = Json::array();
   double end_s = overlay.view_start_s;
   for (const OverlayPanel& panel : overlay.panels) {
@@ -196,6 +221,9 @@ Block make_overlay_block(const Comparison& comparison, const Overlay& overlay, s
     }
     panels.push_back(
         {{"label", capitalized(plain_name(panel.channel))}, {"unit", shown_unit(panel.channel)}, {"series", series}});
+    std::vector<ScaledLine> lines;
+    for (std::size_t i = 0; i < counts.size(); ++i) lines.emplace_back(&panel.lines[i].values, &counts[i]);
+    if (const Json scale = find_scale(lines); !scale.is_null()) panels.back()["scale"] = scale;
   }
   Block block = {{"type", "times"},
                  {"unlinked", true},
@@ -216,6 +244,28 @@ Table make_named_inputs(const Comparison& comparison) {
   return table;
 }
 
+/// Conditions of the test that are not the same for all: "The tests differ in load: a40 5570 N, a50 6865 N." Empty
+/// where none differs.
+std::string describe_conditions(const Comparison& comparison, const std::optional<std::size_t>& main) {
+  constexpr double kSame = 1e-3;  // of the value: less is how well a controller holds it
+  if (!main.has_value()) return "";
+  std::vector<std::string> texts;
+  for (const ComparedValue& value : comparison.values) {
+    if (!is_condition(value) || value.place != comparison.values[*main].place) continue;
+    const std::optional<double>& reference = value.values.front();
+    const bool differs = std::any_of(value.differences.begin(), value.differences.end(), [&](const Difference& one) {
+      return one.value.has_value() && std::abs(*one.value) > kSame * std::abs(reference.value_or(0.0));
+    });
+    if (!differs) continue;
+    std::vector<std::string> each;
+    for (std::size_t i = 0; i < value.values.size(); ++i) {
+      each.push_back(fmt::format("{} {} {}", comparison.names[i], show_value(value.values[i], "{:.4g}"), value.unit));
+    }
+    texts.push_back(fmt::format("{}: {}", value.label, fmt::join(each, ", ")));
+  }
+  return texts.empty() ? "" : fmt::format("The tests differ in their {}.", fmt::join(texts, "; "));
+}
+
 Block make_list_block(const std::vector<std::string>& items) { return {{"type", "text"}, {"items", items}}; }
 
 }  // namespace
@@ -225,7 +275,9 @@ Page make_comparison_page(const comparison::Compared& compared) {
   Page page{"compare", fmt::format("Comparison of {}", comparison::name_of(comparison.kind)),
             fmt::format("{}. The first is the reference.", fmt::join(comparison.names, ", "))};
   Section top{"Main difference"};
-  if (!comparison.message.empty()) top.blocks.push_back(make_lead("", comparison.message + "."));
+  if (!comparison.message.empty()) {
+    top.blocks.push_back(make_lead("", comparison.message + ".", describe_conditions(comparison, compared.main)));
+  }
   if (compared.main.has_value()) {
     top.blocks.push_back(make_main_tiles(comparison, *compared.main));
   }

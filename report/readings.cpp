@@ -18,6 +18,12 @@ std::pair<std::size_t, std::size_t> find_rows(const sim::Recording<double>& reco
           static_cast<std::size_t>(last - recording.phase.begin())};
 }
 
+/// The rows [first, last) without their first, where they follow those of another phase: a row is a mean over its
+/// sample, and that one lies in both phases. One that stands alone is kept.
+std::size_t skip_joint(std::size_t first, std::size_t last) {
+  return first > 0 && last - first > 1 ? first + 1 : first;
+}
+
 /// Mean over time, least, most and last value of the rows [first, last); null where none is finite.
 Json summarize(const std::vector<double>& time_s, const std::vector<double>& values, std::size_t first,
                std::size_t last) {
@@ -80,7 +86,7 @@ Json summarize_phases(const sim::Recording<double>& recording, const std::vector
   Json phases = Json::array();
   for (std::size_t phase = 0; phase < recording.phases.size(); ++phase) {
     const auto [first, last] = find_rows(recording, phase);
-    phases.push_back(summarize(recording.time_s, values, first, last));
+    phases.push_back(summarize(recording.time_s, values, skip_joint(first, last), last));
   }
   return phases;
 }
@@ -94,7 +100,8 @@ Json summarize_spans(const std::vector<double>& time_s, const std::vector<double
   Json spans = Json::array();
   for (std::size_t i = 0; i < spans_s.size(); ++i) {
     const double end_s = spans_s[i].second + (i + 1 == spans_s.size() ? kSame_s : -kSame_s);
-    spans.push_back(summarize(time_s, values, find_row(spans_s[i].first - kSame_s), find_row(end_s)));
+    const std::size_t first = find_row(spans_s[i].first - kSame_s), last = find_row(end_s);
+    spans.push_back(summarize(time_s, values, skip_joint(first, last), last));
   }
   return spans;
 }

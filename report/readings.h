@@ -18,7 +18,7 @@ Json make_row_times(const std::vector<double>& time_s);
 Json make_recorded(const std::vector<double>& time_s, const std::vector<double>& values);
 
 /// For each phase of a recording [mean over time, least, most, last] of its rows, or null where it has no value. The
-/// row at the end of a phase belongs to the next one.
+/// row at the end of a phase belongs to the next one, and counts in neither: it is a mean across both.
 /// Checked  tests/report/readings_test.cpp
 Json summarize_phases(const sim::Recording<double>& recording, const std::vector<double>& values);
 /// The same of spans of time, each with the rows from its start to before its end; of the last, its end too.

@@ -9,6 +9,7 @@
 #include "models/quantities.h"
 #include "report/blocks.h"
 #include "report/readings.h"
+#include "report/time_scale.h"
 #include "rigs/vehicle_channels.h"
 #include "sim/core/units.h"
 
@@ -89,46 +90,6 @@ struct Panel {
   Json series = Json::array();
   std::vector<std::vector<double>> values = {};  // of each series
 };
-
-/// Rows that set the scale of a drum's panels: those in which the tire carries its load or the speed is steady, where
-/// readings are taken. Run-up and the moment of a change of load reach far beyond and would flatten the rest.
-std::vector<bool> find_scale_rows(const sim::Recording<double>& recording) {
-  constexpr double kLoaded = 0.5;        // of the largest load
-  constexpr double kSteady_m_s2 = 0.02;  // of a change of speed
-  constexpr std::size_t kSettled = 3;    // rows after a change
-  const std::vector<double>& load_N = recording.channel(quantities::kLoad);
-  const std::vector<double>& speed_m_s = recording.channel(quantities::kSpeed);
-  const double most_N = *std::max_element(load_N.begin(), load_N.end());
-  std::vector<bool> counts(load_N.size(), false);
-  std::size_t since = 0;
-  for (std::size_t i = 1; i < load_N.size(); ++i) {
-    const double change_m_s2 =
-        std::abs(speed_m_s[i] - speed_m_s[i - 1]) / (recording.time_s[i] - recording.time_s[i - 1]);
-    const bool is_loaded = load_N[i] > kLoaded * most_N;
-    const bool is_changed = change_m_s2 > kSteady_m_s2 || is_loaded != (load_N[i - 1] > kLoaded * most_N);
-    since = is_changed ? 0 : since + 1;
-    counts[i] = since >= kSettled && std::abs(speed_m_s[i]) > 0.05;
-  }
-  return counts;
-}
-
-/// Least and greatest value of a panel over the rows that set its scale; nothing where they are nearly all of it.
-Json find_scale(const Panel& panel, const std::vector<bool>& counts) {
-  constexpr double kBeyond = 1.25;  // times the scale: what is less far outside is simply shown
-  double low = 1e300, high = -1e300, all_low = 1e300, all_high = -1e300;
-  for (const std::vector<double>& values : panel.values) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!std::isfinite(values[i])) continue;
-      all_low = std::min(all_low, values[i]);
-      all_high = std::max(all_high, values[i]);
-      if (!counts[i]) continue;
-      low = std::min(low, values[i]);
-      high = std::max(high, values[i]);
-    }
-  }
-  if (!(high > low) || all_high - all_low < kBeyond * (high - low)) return nullptr;
-  return Json::array({rounded(low), rounded(high)});
-}
 
 bool is_all_zero(const Panel& panel) {
   return std::all_of(panel.values.begin(), panel.values.end(), [](const std::vector<double>& values) {
@@ -231,7 +192,9 @@ Block make_times(const sim::Recording<double>& recording) {
   const std::string dropped = drop_empty_panels(panels);
   const bool is_drum = std::any_of(recording.channels.begin(), recording.channels.end(),
                                    [](const auto& channel) { return channel.quantity == quantities::kDrumTorque; });
-  const std::vector<bool> counts = is_drum ? find_scale_rows(recording) : std::vector<bool>{};
+  const std::vector<bool> counts = is_drum ? find_scale_rows(recording.time_s, recording.channel(quantities::kLoad),
+                                                             recording.channel(quantities::kSpeed))
+                                           : std::vector<bool>{};
   const PageClock view = find_view(recording);
   Block block = {
       {"type", "times"},
@@ -245,7 +208,9 @@ Block make_times(const sim::Recording<double>& recording) {
            "mouse wheel, zoom.") +
            dropped}};
   for (Panel& panel : panels) {
-    const Json scale = is_drum ? find_scale(panel, counts) : Json();
+    std::vector<ScaledLine> lines;
+    for (const std::vector<double>& values : panel.values) lines.emplace_back(&values, &counts);
+    const Json scale = is_drum ? find_scale(lines) : Json();
     block["panels"].push_back({{"label", panel.label}, {"unit", panel.unit}, {"series", std::move(panel.series)}});
     if (!scale.is_null()) block["panels"].back()["scale"] = scale;
   }

@@ -46,6 +46,18 @@ TEST_CASE("a phase's numbers are those of its own rows", "[fast]") {
   CHECK(none == Json::parse("[null, null]"));
 }
 
+TEST_CASE("a row that lies in two phases counts in neither", "[fast]") {
+  sim::Recording<double> recording;
+  recording.phases = {{"run-up", 0.0, 3.0}, {"warm-up", 3.0, 6.0}};
+  recording.time_s = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0};
+  recording.phase = {0, 0, 0, 1, 1, 1};
+  const std::vector<double> torque_Nm{180.0, 180.0, 180.0, 122.0, 64.0, 62.0};  // 122: half run-up, half load
+  recording.values = {torque_Nm};
+  const Json expected = Json::parse("[[180.0, 180.0, 180.0, 180.0], [63.0, 62.0, 64.0, 62.0]]");
+  CHECK(report::summarize_phases(recording, torque_Nm) == expected);
+  CHECK(report::summarize_spans(recording.time_s, torque_Nm, {{0.0, 3.0}, {3.0, 6.0}}) == expected);
+}
+
 TEST_CASE("the page can tell the time of every row", "[fast]") {
   const sim::Recording<double> recording = make_jump();
   std::vector<double> times_s;
