@@ -12,8 +12,9 @@ import { kFindProblems } from './find_problems.mjs';
 
 const kWidths = [1400, 768, 420];
 const kPaper_px = 680; // of the page's own style: A4 without its margins
-const kLeastInk = 0.004; // of a printed page but the last: a heading alone has less
+const kLeastInk = 0.004; // of a printed page: a heading alone has less
 const kLeastFilled = 0.4; // of its height: a figure that does not fit goes to the next page, but is no higher than the rest of one
+const kLeastLast = 0.12; // of the height of the last one, where the page may end: more than a few lines
 const args = process.argv.slice(2);
 const shots = args.includes('--screenshots') ? args[args.indexOf('--screenshots') + 1] : undefined;
 const pages = args.filter((arg, i) => arg.endsWith('.html') && args[i - 1] !== '--screenshots').map((page) => resolve(page));
@@ -80,9 +81,10 @@ async function findPaperProblems(page) {
   const pdf = Buffer.from(data, 'base64');
   if (shots) writeFileSync(join(shots, `${basename(page, '.html')}.pdf`), pdf);
   const sheets = measurePages(pdf);
-  const problems = sheets.slice(0, -1).flatMap(({ ink, filled }, i) => [
-    ink < kLeastInk && `printed page ${i + 1} of ${sheets.length} is nearly empty: ${(100 * ink).toFixed(2)} % ink`,
-    filled < kLeastFilled && `printed page ${i + 1} of ${sheets.length} ends at ${Math.round(100 * filled)} % of its height`].filter(Boolean));
+  const isLast = (i) => i > 0 && i + 1 === sheets.length;
+  const problems = sheets.flatMap(({ ink, filled }, i) => [
+    !isLast(i) && ink < kLeastInk && `printed page ${i + 1} of ${sheets.length} is nearly empty: ${(100 * ink).toFixed(2)} % ink`,
+    filled < (isLast(i) ? kLeastLast : sheets.length > 1 ? kLeastFilled : 0) && `printed page ${i + 1} of ${sheets.length} ends at ${Math.round(100 * filled)} % of its height`].filter(Boolean));
   await resize(kPaper_px + 40);
   await chromium.send('Emulation.setEmulatedMedia', { media: 'print', features: [] });
   await chromium.evaluate(`(dispatchEvent(new Event('beforeprint')), 0)`);

@@ -7,7 +7,7 @@ export const kFindProblems = `(() => {
   const meet = (a, b, by) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > by && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > by;
   // Numbers of an axis, side by side or one above the other.
   const isNumber = (text) => /^[-\\u2212+\\d.,e]+$/.test(text.trim());
-  const touch = (a, b) => meet(a, b, 1) && Math.abs(a.right - b.right) < 2 || Math.abs(a.top - b.top) < 2 && Math.max(a.left, b.left) - Math.min(a.right, b.right) < 3;
+  const touch = (a, b) => meet(a, b, 1) && Math.abs(a.right - b.right) < 2 || Math.abs(a.top - b.top) < 2 && Math.max(a.left, b.left) - Math.min(a.right, b.right) < 6;
   const wide = document.documentElement.classList.contains('paper') ? document.querySelector('#page').getBoundingClientRect().right + 1 : innerWidth;
 
   // Texts of charts: those of axes, titles and legends stay apart, and inside of their chart.

@@ -50,7 +50,7 @@ export function axisStyle() {
   return {
     axisLine: { show: true, lineStyle: { color: color('axis') } },
     axisTick: { show: true, lineStyle: { color: color('axis') } },
-    axisLabel: { color: color('soft'), fontSize: 11, hideOverlap: true },
+    axisLabel: { color: color('soft'), fontSize: 11, hideOverlap: true, padding: [0, 4] }, // apart where they are drawn
     splitLine: { show: true, lineStyle: { color: color('grid'), width: 1 } },
     nameTextStyle: { color: color('soft'), fontSize: 11 },
   };
@@ -118,6 +118,7 @@ export class Chart {
     this.element = h('div', { class: 'chart', role: 'img', 'aria-label': label });
     this.element.style.height = `${this.height(800)}px`;
     this.instance = null;
+    this.less_px = 0; // by which it is lower on paper
     all.push(this);
     this.leaveTheme = onThemeChange(() => this.redraw());
     watchNear.observe(this.element);
@@ -127,7 +128,7 @@ export class Chart {
   draw() {
     if (this.instance || !this.element.isConnected || this.element.clientWidth === 0) return;
     this.width = this.element.clientWidth;
-    this.element.style.height = `${this.height(this.width)}px`;
+    this.element.style.height = `${this.height(this.width) - this.less_px}px`;
     this.instance = echarts.init(this.element, null, { renderer: 'svg' });
     this.instance.setOption(this.makeOption(this.width));
     this.instance.getZr().flush();
@@ -139,7 +140,7 @@ export class Chart {
     const zoom = this.zoom();
     this.instance.dispatchAction({ type: 'hideTip' }); // it would be shown anew in what is no longer there
     this.width = this.element.clientWidth;
-    this.element.style.height = `${this.height(this.width)}px`;
+    this.element.style.height = `${this.height(this.width) - this.less_px}px`;
     this.instance.resize({ animation: { duration: 0 } });
     this.instance.setOption(this.makeOption(this.width), { notMerge: true });
     if (zoom) this.instance.dispatchAction({ type: 'dataZoom', startValue: zoom[0], endValue: zoom[1] });

@@ -17,6 +17,7 @@ import { Clock } from './clock.js';
 import { h } from './dom.js';
 import { animationBlock } from './animation/animation.js';
 import { crossSectionBlock } from './animation/section.js';
+import { fillSheets, restoreSheets } from './paper_flow.js';
 import { fitTables, restoreTables } from './paper_tables.js';
 import { makeThemeButton, setOnPaper, startTheme } from './theme.js';
 import { timeBarBlock } from './timebar.js';
@@ -46,7 +47,8 @@ function makeHeader(payload) {
       h('span', { class: 'brand' }, 'rollrig ', h('span', null, payload.command)),
       h('div', { class: 'tools' }, makeThemeButton(),
         h('button', { type: 'button', class: 'tool', onclick: () => print() }, 'Print'))),
-    h('h1', null, payload.title), payload.subtitle && h('p', { class: 'subtitle' }, payload.subtitle));
+    h('h1', null, payload.title), payload.subtitle && h('p', { class: 'subtitle' }, payload.subtitle),
+    h('p', { class: 'about' }, payload.about));
 }
 
 function makeContents(sections) {
@@ -70,9 +72,11 @@ function start() {
     document.documentElement.classList.add('paper');
     drawAll();
     fitTables();
+    fillSheets();
   });
   addEventListener('afterprint', () => {
     restoreTables();
+    restoreSheets();
     document.documentElement.classList.remove('paper');
     setOnPaper(false);
     drawAll();

@@ -1,4 +1,5 @@
-// Bars side by side, or one below the other where there are many: {label, unit, categories: [...], series: [{name, values, low, high}], caption}
+// Bars side by side, or one below the other where there are many: {label, unit, categories: [...],
+// series: [{name, values, low, high, labels}], least_end: what the axis goes to at least, caption}
 import { axisStyle, axisTitle, baseOption, Chart, figure, makeLegend, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { number } from '../format.js';
@@ -17,6 +18,7 @@ function barStyle(k) {
 const kLeast_px = 70; // width of a category below which bars lie
 const isLying = (block, width) => width / block.categories.length < kLeast_px;
 
+const kTick_px = 70; // from one number of a lying axis to the next, at least about so
 const kCategoryGap = 0.3, kBarGap = 0.08; // of a category's width, and of a bar's
 const widestBar = (lying) => (lying ? 22 : 72);
 
@@ -63,7 +65,9 @@ function makeOption(block, width) {
   const names = { ...axis, type: 'category', data: block.categories, inverse: lying, splitLine: { show: false }, axisTick: { show: false },
     axisLabel: { ...axis.axisLabel, formatter: (name) => name.replaceAll('/', '\u2215'), interval: 0, // no break inside of km/h
       hideOverlap: false, width: lying ? Math.min(230, 0.42 * width) : width / block.categories.length - 8, overflow: 'break', lineHeight: lying ? 12 : 14 } };
-  const values = { ...axis, type: 'value', axisLine: { show: false }, axisTick: { show: false } };
+  const values = { ...axis, type: 'value', axisLine: { show: false }, axisTick: { show: false },
+    splitNumber: lying ? Math.max(2, Math.floor((0.6 * width) / kTick_px)) : 5,
+    max: block.least_end ? ({ max }) => (max < block.least_end ? block.least_end : null) : null };
   return {
     ...baseOption(),
     tooltip: { ...baseOption().tooltip, trigger: 'axis', axisPointer: { type: 'shadow' }, formatter: (items) => (items.length ? makeTip(block, items[0].dataIndex) : '') },

@@ -10,6 +10,7 @@ import { makeTable } from './table.js';
 const rowHeight = () => (isOnPaper() ? 22 : 36);
 const kFoot_px = 44;
 const kTitle_px = 30;
+const kTick_px = 80; // from one number of the axis to the next, at least about so
 
 const withUnit = (row, value) => [number(value), row.unit].filter(Boolean).join(' ');
 /// Of the estimate; where that is 0, of the prior.
@@ -53,7 +54,7 @@ function makeOption(block, width) {
     legend: legend.option || { show: false },
     title: axisTitle(block.label, legend.height),
     grid: { left: 8, right: 16, top: legend.height + kTitle_px, bottom: kFoot_px - 18, containLabel: true },
-    xAxis: { ...axis, type: 'value', name: '% from the estimate', nameLocation: 'middle', nameGap: 26, axisLabel: { ...axis.axisLabel, formatter: (v) => number(v, 3).replace(/\.0+$/, '') } },
+    xAxis: { ...axis, type: 'value', splitNumber: Math.max(2, Math.floor((0.6 * width) / kTick_px)), name: '% from the estimate', nameLocation: 'middle', nameGap: 26, axisLabel: { ...axis.axisLabel, formatter: (v) => number(v, 3).replace(/\.0+$/, '') } },
     yAxis: { ...axis, type: 'category', inverse: true, data: block.rows.map((row) => row.name), splitLine: { show: false }, axisTick: { show: false },
       axisLabel: { ...axis.axisLabel, interval: 0, hideOverlap: false, width: Math.min(220, 0.36 * width), overflow: 'break', lineHeight: 12 } },
     series: [makeIntervals(block, 1), makeIntervals(block, 0)],

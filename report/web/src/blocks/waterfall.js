@@ -13,6 +13,12 @@ const kTitle_px = 26;
 const kTick_px = 80; // from one number of the axis to the next, at least about so
 const kFromZero = 0.2; // least part of the axis that the steps cover before it leaves zero out
 
+/// A step of 1, 2 or 5 times a power of ten, with which a range has at most so many steps.
+function roundStep(range, most) {
+  const power = 10 ** Math.floor(Math.log10(range / most));
+  return [1, 2, 5, 10].map((k) => k * power).find((step) => range / step <= most * 1.0001);
+}
+
 const isNumber = (value) => value !== null && value !== undefined;
 const signed = (value) => `${value > 0 ? '+' : ''}${number(value)}`;
 
@@ -111,7 +117,7 @@ function makeOption(block, rows, width) {
     } },
     title: axisTitle([block.label, block.unit].filter(Boolean).join(', '), false),
     grid: { left: isNarrow ? 2 : names + 12, right: 70, top: kTitle_px, bottom: range.isCut ? 40 : 22 },
-    xAxis: { ...axis, type: 'value', min: range.low, max: range.high, splitNumber: Math.max(2, Math.floor((width - names - 70) / kTick_px)), name: range.isCut ? 'the axis does not begin at zero' : '', nameLocation: 'middle', nameGap: 26,
+    xAxis: { ...axis, type: 'value', min: range.low, max: range.high, interval: roundStep(range.high - range.low, Math.max(2, Math.floor((width - names - 70) / kTick_px))), name: range.isCut ? 'the axis does not begin at zero' : '', nameLocation: 'middle', nameGap: 26,
       axisLabel: { ...axis.axisLabel, showMinLabel: !range.isCut && range.low === 0, showMaxLabel: !range.isCut && range.high === 0, formatter: (v) => number(v, 3) } },
     yAxis: { type: 'category', data: rows.map((row) => row.name), inverse: true, axisLabel: { show: false }, axisTick: { show: false }, axisLine: { show: false } },
     series: [{ type: 'custom', clip: false, data: rows.map((row, i) => [row.to, i]), encode: { x: 0, y: 1 }, renderItem: drawRow(rows, range, { width, names, isNarrow }) }],

@@ -1,0 +1,80 @@
+// Where sheets of paper end. What may not be cut goes to the next sheet as a whole: a high chart would leave half a sheet
+// empty, and is made lower by as much as it lacks. A last sheet with a few lines is taken onto the one before likewise.
+import { chartsIn } from './chart.js';
+
+const kSheet_px = (297 - 2 * 16) / 25.4 * 96; // A4 without the margins of style.css
+const kLeastFilled = 0.55; // of a sheet, below which it is worth to make the next chart lower
+const kMostLess = 0.45; // of a chart's height
+const kLeast_px = 150; // of a chart's height
+const kLastLines = 0.15; // of a sheet
+
+/// What is not cut, in order: a heading and what follows it are one.
+function listWholes() {
+  const wholes = [];
+  let head = null;
+  for (const one of document.querySelectorAll('header, main h2, main h3, main figure:not(.timesfigure):not(:has(.map)), main .times.part, main .lead, main .tiles, main tr, main p, main li, main .equation')) {
+    if (one.offsetParent === null || one.parentElement.closest('figure:not(.timesfigure):not(:has(.map)), .lead, .tiles')) continue;
+    const { top, bottom } = one.getBoundingClientRect();
+    if (!(bottom > top)) continue;
+    if (/^H[23]$/.test(one.tagName)) {
+      head = head ?? top;
+      continue;
+    }
+    const [chart] = one.matches('figure') ? chartsIn(one) : [];
+    wholes.push({ top: head ?? top, bottom, chart });
+    head = null;
+  }
+  return wholes;
+}
+
+/// The first whole before which a sheet ends too early, with the height that it lacks; how far the last sheet is filled.
+function layOut(wholes) {
+  const start = wholes[0].top;
+  let pushed = 0;
+  let tooEarly = null;
+  let end = 0;
+  for (const whole of wholes) {
+    const [top, bottom] = [whole.top - start + pushed, whole.bottom - start + pushed];
+    const sheetEnd = (Math.floor(top / kSheet_px + 1e-6) + 1) * kSheet_px;
+    end = bottom;
+    if (bottom <= sheetEnd || bottom - top > kSheet_px) continue;
+    const filled = 1 - (sheetEnd - top) / kSheet_px;
+    if (!tooEarly && filled < kLeastFilled) tooEarly = { whole, lacking: bottom - sheetEnd };
+    pushed += sheetEnd - top;
+    end += sheetEnd - top;
+  }
+  return { tooEarly, last: (end / kSheet_px) % 1, sheets: Math.ceil(end / kSheet_px - 1e-6) };
+}
+
+/// Makes a chart lower by so much, where it stays readable. Returns whether it did.
+function lower(chart, by_px) {
+  const height = chart.element.offsetHeight;
+  if (by_px > kMostLess * height || height - by_px < kLeast_px) return false;
+  chart.less_px += by_px;
+  chart.redraw();
+  return true;
+}
+
+export function fillSheets() {
+  const tried = new Set();
+  for (let passes = 0; passes < 40; ++passes) {
+    const { tooEarly } = layOut(listWholes());
+    if (!tooEarly || tried.has(tooEarly.whole.chart)) break;
+    tried.add(tooEarly.whole.chart);
+    if (tooEarly.whole.chart) lower(tooEarly.whole.chart, tooEarly.lacking + 6);
+  }
+  const { last, sheets } = layOut(listWholes());
+  if (sheets < 2 || last > kLastLines || last === 0) return;
+  const charts = listWholes().map(({ chart }) => chart).filter(Boolean).reverse();
+  let needed = last * kSheet_px + 12;
+  for (const chart of charts) {
+    const by_px = Math.min(needed, 0.25 * chart.element.offsetHeight);
+    if (lower(chart, by_px)) needed -= by_px;
+    if (needed <= 0) return;
+  }
+}
+
+/// Every chart in its own height again.
+export function restoreSheets() {
+  chartsIn(document.body).forEach((chart) => (chart.less_px = 0));
+}
