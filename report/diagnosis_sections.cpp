@@ -263,22 +263,20 @@ Tile make_cause_tile(const Findings& findings) {
 
 /// How sure the verdict is.
 Tile make_certainty_tile(const Findings& findings) {
-  const auto tile = [](double probability, const char* note, const std::string& from) {
-    return Tile{"How sure", show_probability(probability), "", note, "", {from}};
+  const auto tile = [&findings](const char* note, const std::string& from) {
+    return Tile{"How sure", show_probability(diagnosis::probability_of_verdict(findings)), "", note, "", {from}};
   };
   if (findings.verdict == Verdict::kNoGap) {
     if (findings.nothing_detectable.has_value()) {
-      return tile(*findings.nothing_detectable, "probability that nothing acts which this set would show",
-                  "/nothing_detectable");
+      return tile("probability that nothing acts which this set would show", "/nothing_detectable");
     }
-    return tile(diagnosis::probability_of(findings, "none"), "probability that nothing acts", "/probability/none");
+    return tile("probability that nothing acts", "/probability/none");
   }
   if (findings.verdict == Verdict::kUnexplained || findings.causes.empty()) {
-    return tile(diagnosis::probability_of(findings, "unknown"), "probability of something outside the catalog",
-                "/probability/unknown");
+    return tile("probability of something outside the catalog", "/probability/unknown");
   }
   const Cause& cause = findings.causes.front();
-  Tile sure = tile(cause.probability, "probability that it acts", "/causes/0/probability");
+  Tile sure = tile("probability that it acts", "/causes/0/probability");
   if (cause.alone.has_value()) sure.note += fmt::format("; that nothing else does: {}", show_probability(*cause.alone));
   return sure;
 }
@@ -328,7 +326,6 @@ Section make_verdict(const Findings& findings) {
   Section section{"Verdict"};
   std::vector<Tile> tiles{make_cause_tile(findings), make_certainty_tile(findings)};
   for (const Tile& tile : make_gap_tiles(findings)) tiles.push_back(tile);
-  section.blocks.push_back(make_tiles(tiles));
   const char* tone = findings.verdict == Verdict::kUnexplained ? "bad" : "good";
   std::string more = findings.doubt;
   if (findings.verdict == Verdict::kNoGap && findings.trace.has_value()) more = describe_trace(*findings.trace);
@@ -346,9 +343,11 @@ Section make_verdict(const Findings& findings) {
     }
     more = meaning + "." + describe_shrinkage(findings.gap) + describe_alone(cause);
   }
-  section.blocks.push_back(make_lead(tone, describe_verdict(findings), more));
+  section.blocks.push_back(make_lead(tone, describe_verdict(findings)));
+  section.blocks.push_back(make_tiles(tiles));
   if (!findings.warnings.empty()) section.blocks.push_back(make_warnings(findings.warnings));
-  section.blocks.push_back(make_gap_bars(findings));
+  if (findings.verdict != Verdict::kNoGap) section.blocks.push_back(make_gap_bars(findings));  // else no bar is seen
+  if (!more.empty()) section.blocks.push_back(make_paragraph(pretty_unit(more)));
   return section;
 }
 

@@ -55,21 +55,83 @@ Block make_gaps(const Fleet& fleet) {
                    {{{"name", "before"}, {"values", before}}, {{"name", "with the cause"}, {"values", after}}});
 }
 
-Block make_fleet_tiles(const Fleet& fleet) {
-  std::size_t counts[4] = {};  // explained, no gap, unexplained, not diagnosed
+/// How many sets have which verdict.
+struct FleetCounts {
+  std::size_t explained = 0, no_gap = 0, unexplained = 0, failed = 0;
+};
+
+FleetCounts count_verdicts(const Fleet& fleet) {
+  FleetCounts counts;
   for (const FleetMember& member : fleet.members) {
     if (!member.findings.has_value()) {
-      ++counts[3];
+      ++counts.failed;
       continue;
     }
-    ++counts[member.findings->verdict == Verdict::kExplained ? 0 : member.findings->verdict == Verdict::kNoGap ? 1 : 2];
+    const Verdict verdict = member.findings->verdict;
+    ++(verdict == Verdict::kExplained ? counts.explained
+       : verdict == Verdict::kNoGap   ? counts.no_gap
+                                      : counts.unexplained);
   }
+  return counts;
+}
+
+/// "bearing warmup in 2 sets, torque gain in 1 set", the most frequent cause first.
+std::string list_fleet_causes(const Fleet& fleet) {
+  std::vector<std::pair<std::string, std::size_t>> causes;
+  for (const FleetMember& member : fleet.members) {
+    if (!member.findings.has_value() || member.findings->verdict != Verdict::kExplained) continue;
+    std::vector<std::string> names;
+    for (const std::string& id : member.findings->causes.front().effects) names.push_back(name_effect(id));
+    const std::string name = fmt::format("{}", fmt::join(names, " with "));
+    const auto known = std::find_if(causes.begin(), causes.end(), [&](const auto& one) { return one.first == name; });
+    known == causes.end() ? causes.emplace_back(name, 1) : (++known->second, *known);
+  }
+  std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  constexpr std::size_t kMost = 3;
+  const bool is_cut = causes.size() > kMost;
+  causes.resize(std::min(causes.size(), kMost));
+  std::vector<std::string> texts;
+  for (const auto& [name, count] : causes) texts.push_back(fmt::format("{} in {}", name, format_count(count, "set")));
+  return fmt::format("{}{}", fmt::join(texts, ", "), is_cut ? " and others" : "");
+}
+
+Block make_fleet_lead(const Fleet& fleet) {
+  const FleetCounts counts = count_verdicts(fleet);
+  const std::size_t all = fleet.members.size();
+  std::string text;
+  if (counts.explained > 0) {
+    text = fmt::format("A cause was found in {} of {}: {}.", counts.explained, format_count(all, "set"),
+                       list_fleet_causes(fleet));
+  } else if (counts.no_gap == all) {
+    text = fmt::format("No cause was found in any of {}, and none is needed: the simulation meets all measurements.",
+                       format_count(all, "set"));
+  } else {
+    text = fmt::format("No cause was found in any of {}.", format_count(all, "set"));
+  }
+  if (counts.no_gap > 0 && counts.no_gap < all)
+    text += fmt::format(" No gap in {}.", format_count(counts.no_gap, "set"));
+  if (counts.unexplained > 0)
+    text += fmt::format(" A gap without a cause in {}.", format_count(counts.unexplained, "set"));
+  if (counts.failed > 0) text += fmt::format(" Not diagnosed: {}.", format_count(counts.failed, "set"));
+  return make_lead(counts.unexplained + counts.failed > 0 ? "bad" : "good", text);
+}
+
+Block make_fleet_tiles(const Fleet& fleet) {
+  const FleetCounts counts = count_verdicts(fleet);
   const std::string of = "of " + format_count(fleet.members.size(), "set");
-  std::vector<Tile> tiles{{"Explained", fmt::format("{}", counts[0]), "", of, "good", {}},
-                          {"No gap", fmt::format("{}", counts[1]), "", of, "good", {}},
-                          {"Unexplained", fmt::format("{}", counts[2]), "", of, counts[2] > 0 ? "bad" : "", {}}};
-  if (counts[3] > 0) tiles.push_back({"Not diagnosed", fmt::format("{}", counts[3]), "", of, "bad", {}});
+  const auto make = [&of](const char* label, std::size_t count, const char* tone) {
+    return Tile{label, fmt::format("{}", count), "", of, count > 0 ? tone : "", {}};
+  };
+  std::vector<Tile> tiles{make("Explained by a cause", counts.explained, "good"), make("No gap", counts.no_gap, "good"),
+                          make("A gap without a cause", counts.unexplained, "bad")};
+  if (counts.failed > 0) tiles.push_back(make("Not diagnosed", counts.failed, "bad"));
   return make_tiles(tiles);
+}
+
+/// Whether a set has a gap that a bar would show.
+bool has_gap(const Fleet& fleet) {
+  const FleetCounts counts = count_verdicts(fleet);
+  return counts.explained + counts.unexplained > 0;
 }
 
 /// The verdict on a set in a sentence, or why there is none, and what is warned of.
@@ -117,7 +179,10 @@ Table make_named_table(const Fleet& fleet) {
 
 Page make_fleet_page(const Fleet& fleet) {
   Page page{"diagnose", "Diagnosis of " + format_count(fleet.members.size(), "set"), ""};
-  page.add({"Sets", "", {make_fleet_tiles(fleet), make_table(make_named_table(fleet)), make_gaps(fleet)}});
+  Section sets{"Sets", "", {make_fleet_lead(fleet), make_fleet_tiles(fleet)}};
+  if (has_gap(fleet)) sets.blocks.push_back(make_gaps(fleet));
+  sets.blocks.push_back(make_table(make_named_table(fleet)));
+  page.add(std::move(sets));
   Section back{"What comes back"};
   back.blocks.push_back(fleet.recurrences.empty()
                             ? make_paragraph("No effect acts with more than 80 % in all sets of a machine or a tire.")

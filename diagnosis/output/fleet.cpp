@@ -105,12 +105,10 @@ Table make_fleet_table(const Fleet& fleet) {
       const Findings& one = *member.findings;
       const GapView& gap = one.gap.recalibrated;
       const bool explained = one.verdict == Verdict::kExplained;
-      const double probability = explained ? one.causes.front().probability
-                                           : one.probability.at(one.verdict == Verdict::kNoGap ? "none" : "unknown");
       row = {name_of(member),
              one.doubt.empty() ? name_of(one.verdict) : "in doubt",
              explained ? fmt::format("{}", fmt::join(one.causes.front().effects, " + ")) : "",
-             one.doubt.empty() ? show_probability(probability) : "",
+             one.doubt.empty() ? show_probability(probability_of_verdict(one)) : "",
              fmt::format("{:.2f}", gap.before),
              explained ? fmt::format("{:.2f}", gap.after) : ""};
     }

@@ -363,6 +363,14 @@ std::string describe_rest(const LoneRun& lone) {
 
 }  // namespace
 
+double probability_of_verdict(const Findings& findings) {
+  if (findings.verdict == Verdict::kNoGap) {
+    return findings.nothing_detectable.value_or(probability_of(findings, "none"));
+  }
+  const bool is_explained = findings.verdict == Verdict::kExplained && !findings.causes.empty();
+  return is_explained ? findings.causes.front().probability : probability_of(findings, "unknown");
+}
+
 std::string show_probability(double probability) {
   if (probability > 0.99 && probability < 1.0) return "over 99 %";
   if (probability < 0.01 && probability > 0.0) return "under 1 %";

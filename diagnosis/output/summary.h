@@ -15,11 +15,14 @@ namespace rollrig::diagnosis {
 /// Checked tests/diagnosis/summary_test.cpp
 std::string format_summary(const Findings& findings);
 
-/// Which effects were compared: "only A, B", "all but C"; empty where it was the whole catalog. `name` gives the name of
-/// an effect as it is shown.
+/// Which effects were compared: "only A, B", "all but C"; empty where it was the whole catalog. `name` gives the name
+/// of an effect as it is shown.
 std::string describe_restriction(const Findings& findings, const std::function<std::string(const std::string&)>& name);
 /// "94 %"; neither 0 nor 100 while some doubt is left.
 std::string show_probability(double probability);
+/// How sure the verdict is: that the first cause acts, that nothing acts which the set would show, or that it is
+/// something outside the catalog.
+double probability_of_verdict(const Findings& findings);
 
 /// "40 times", of a logarithm of 3.69.
 std::string show_factor(double nats);
