@@ -11,6 +11,7 @@
 #include "diagnosis/terms/term.h"
 #include "measurements/run_rows.h"
 #include "report/diagnosis_page.h"
+#include "report/set_comparison.h"
 #include "rollrig/version.h"
 
 namespace rollrig {
@@ -30,6 +31,7 @@ Diagnosis diagnose(const MeasurementSet& set, const DiagnosisOptions& options) {
   static_cast<Findings&>(result) = *found;
   result.text = diagnosis::format_summary(*found);
   Json json = diagnosis::make_diagnosis_json(*found);
+  json["phase_means"] = report::list_phase_means(set.data().set);
   json["bad_rows"] = measurements::make_bad_rows_json(set.data().set);
   result.json = to_text(json);
   result.make_page = [set, found] { return report::make_html(report::make_diagnosis_page(set.data().set, *found)); };

@@ -246,23 +246,24 @@ Report ItemCampaign::calc_sensitivity(const std::string& result) const {
   campaigns::ItemResults values(data_->items->count(), std::nan(""));
   for (std::size_t row = 0; row < table.items.size(); ++row) values[table.items[row]] = column[row];
   const std::size_t factors = design.factors.size();
-  const Sensitivity found =
+  Sensitivity found =
       is_sobol ? describe_indices(result, design, campaigns::calc_sobol_indices(values, factors, design.seed))
                : describe_effects(result, design, campaigns::calc_morris_measures(values, factors, design.seed));
+  std::vector<report::FactorScatter> scatters;
+  for (const std::size_t f : found.order) {
+    constexpr std::size_t kMostCharts = 6;  // Assumed: the factors that matter
+    if (scatters.size() == kMostCharts) break;
+    report::FactorScatter scatter{design.factors[f].key, {}, column};
+    for (const std::vector<std::string>& of_item : table.values) {
+      if (const auto number = parse_number(of_item[f])) scatter.values.push_back(*number);
+    }
+    if (scatter.values.size() == column.size()) scatters.push_back(scatter);
+  }
+  found.json["over_two_factors"] = report::make_factor_means(scatters);
   Report report;
   report.json = to_text(found.json);
   report.text = format_table(found.table) + wrap(found.explanation, 0);
-  report.make_page = [data = data_, found, table, column] {
-    std::vector<report::FactorScatter> scatters;
-    for (const std::size_t f : found.order) {
-      constexpr std::size_t kMostCharts = 6;  // Assumed: the factors that matter
-      if (scatters.size() == kMostCharts) break;
-      report::FactorScatter scatter{data->definition.design.factors[f].key, {}, column};
-      for (const std::vector<std::string>& of_item : table.values) {
-        if (const auto number = parse_number(of_item[f])) scatter.values.push_back(*number);
-      }
-      if (scatter.values.size() == column.size()) scatters.push_back(scatter);
-    }
+  report.make_page = [found, scatters] {
     return report::make_html(report::make_sensitivity_page(found.json, found.table, found.explanation, scatters));
   };
   return report;

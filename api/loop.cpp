@@ -6,6 +6,7 @@
 #include "diagnosis/output/diagnosis_json.h"
 #include "diagnosis/output/summary.h"
 #include "report/diagnosis_page.h"
+#include "report/set_comparison.h"
 #include "rollrig/diagnose.h"
 
 namespace rollrig {
@@ -20,7 +21,11 @@ Loop advance_loop(const LoopInput& input) {
   if (step->diagnosis.has_value()) loop.text = diagnosis::format_summary(*step->diagnosis) + "\n";
   loop.text += diagnosis::format_loop(*step, input.folder);
   Json json = diagnosis::make_ledger_json(step->ledger);
-  json["diagnosis"] = step->diagnosis.has_value() ? diagnosis::make_diagnosis_json(*step->diagnosis) : Json(nullptr);
+  json["diagnosis"] = nullptr;
+  if (step->diagnosis.has_value()) {
+    json["diagnosis"] = diagnosis::make_diagnosis_json(*step->diagnosis);
+    json["diagnosis"]["phase_means"] = report::list_phase_means(step->set);
+  }
   loop.json = to_text(json);
   const DiagnosisOptions options = input.diagnosis;
   loop.make_page = [step, options] {

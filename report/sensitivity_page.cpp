@@ -29,6 +29,8 @@ Json make_index_series(const Json& factors, const char* index, const char* name,
   return {{"name", name}, {"values", values}, {"low", low}, {"high", high}};
 }
 
+std::string name_factor(const Json& factor) { return plain_name(last_part(factor["key"].get<std::string>())); }
+
 Block make_index_bars(const Json& sensitivity) {
   const Json& factors = sensitivity["factors"];
   const std::string result = sensitivity["result"];
@@ -97,8 +99,118 @@ std::string with_unit(const std::string& key, const std::string& name) {
 
 std::string with_unit(const std::string& key) { return with_unit(key, plain_name(last_part(key))); }
 
-/// The mean result over two factors, each in a few ranges.
-Block make_map(const std::string& result, const FactorScatter& across, const FactorScatter& down) {
+/// The map of `over_two_factors` of the document.
+Block make_map(const std::string& result, const Json& means) {
+  const std::string across = means["across"]["key"], down = means["down"]["key"];
+  const double mean = means["mean"];
+  double largest = 0.0;  // deviation of a cell, which has the strongest shade
+  for (const Json& row : means["means"]) {
+    for (const Json& cell : row) {
+      if (cell.is_number()) largest = std::max(largest, std::abs(cell.get<double>() - mean));
+    }
+  }
+  Block block{{"type", "map"},
+              {"caption", fmt::format("Mean of {} over {} and {}", with_unit(result, comparison::label_result(result)),
+                                      plain_name(last_part(across)), plain_name(last_part(down)))},
+              {"heads", {with_unit(down), ""}},
+              {"columns", means["across"]["ranges"]},
+              {"rows", Json::array()},
+              {"legend", fmt::format("Columns: {}. Shades: above and below the mean of all items, {:.4g}.",
+                                     with_unit(across), mean)}};
+  for (std::size_t row = 0; row < means["means"].size(); ++row) {
+    Json cells = Json::array();
+    for (std::size_t column = 0; column < means["means"][row].size(); ++column) {
+      const Json& cell = means["means"][row][column];
+      if (cell.is_null()) {
+        cells.push_back(nullptr);
+        continue;
+      }
+      const double value = cell;
+      cells.push_back({{"text", fmt::format("{:.4g}", value)},
+                       {"shade", largest > 0.0 ? std::lround(4.0 * (value - mean) / largest) : 0},
+                       {"marked", ""},
+                       {"note", format_count(means["items"][row][column].get<std::size_t>(), "item")}});
+    }
+    block["rows"].push_back({{"group", ""}, {"label", means["down"]["ranges"][row]}, {"cells", cells}});
+  }
+  return block;
+}
+
+/// "97 %" of a share, with the name of what it is.
+std::string show_percent_of(double share) {
+  const double percent = 100.0 * std::clamp(share, 0.0, 1.0);  // an estimate of few points may lie beyond
+  return fmt::format("{:.{}f} %", percent, percent < 10.0 ? 1 : 0);
+}
+
+/// Which factors matter, and by how much, in a sentence.
+std::string describe_sensitivity(const Json& sensitivity) {
+  const Json& factors = sensitivity["factors"];
+  const std::string result = sensitivity["result"];
+  const std::string unit = shown_unit(result);
+  const bool is_sobol = factors.front().contains("total");
+  constexpr std::size_t kMost = 4;
+  std::vector<std::string> others;
+  std::string text =
+      fmt::format("{} depends most on {}: ", capitalized(comparison::label_result(result)), name_factor(factors[0]));
+  const auto size = [&](const Json& factor) {
+    if (is_sobol) return show_percent_of(factor["total"]["value"].get<double>());
+    return fmt::format("{:.3g} {}", factor["mean_size"]["value"].get<double>(), unit);
+  };
+  text += is_sobol ? fmt::format("it makes {} of the variance", size(factors[0]))
+                   : fmt::format("it changes by {}", size(factors[0]));
+  for (std::size_t i = 1; i < std::min(kMost, factors.size()); ++i) {
+    others.push_back(fmt::format("{} {}", name_factor(factors[i]), size(factors[i])));
+  }
+  if (!others.empty())
+    text += fmt::format("; {}{}", fmt::join(others, ", "), factors.size() > kMost ? ", the others less" : "");
+  return text + (is_sobol ? " (with interactions)." : " (as the factor goes up by half of its probability).");
+}
+
+Block make_sensitivity_tiles(const Json& sensitivity) {
+  constexpr std::size_t kMost = 4;
+  const Json& factors = sensitivity["factors"];
+  const std::string result = sensitivity["result"];
+  std::vector<Tile> tiles;
+  for (std::size_t i = 0; i < std::min(kMost, factors.size()); ++i) {
+    const Json& factor = factors[i];
+    const std::string place = fmt::format("/factors/{}/", i);
+    const std::string name = capitalized(name_factor(factor));
+    if (factor.contains("total")) {
+      tiles.push_back({name,
+                       fmt::format("{:.1f} %", 100.0 * factor["total"]["value"].get<double>()),
+                       "",
+                       fmt::format("of the variance with interactions; alone {:.1f} %",
+                                   100.0 * factor["first"]["value"].get<double>()),
+                       "",
+                       {place + "total/value"}});
+    } else {
+      const double mean = factor["mean"];
+      tiles.push_back({name,
+                       fmt::format("{:+.3g}", mean),
+                       shown_unit(result),
+                       "mean change as it goes up by half of its probability",
+                       "",
+                       {place + "mean"}});
+    }
+  }
+  if (sensitivity.contains("mean") && sensitivity.contains("sd")) {
+    tiles.push_back(
+        {capitalized(comparison::label_result(result)),
+         fmt::format("{:.4g} +- {:.2g}", sensitivity["mean"].get<double>(), sensitivity["sd"].get<double>()),
+         shown_unit(result),
+         "mean and standard deviation over all items",
+         "",
+         {"/mean", "/sd"}});
+  }
+  return make_tiles(tiles);
+}
+
+}  // namespace
+
+Json make_factor_means(const std::vector<FactorScatter>& scatters) {
+  if (scatters.size() < 2) return nullptr;
+  const FactorScatter& across = scatters[0];
+  const FactorScatter& down = scatters[1];
   std::vector<double> x_values;
   std::vector<double> y_values;
   std::vector<double> results;
@@ -108,48 +220,30 @@ Block make_map(const std::string& result, const FactorScatter& across, const Fac
     y_values.push_back(down.values[i]);
     results.push_back(across.results[i]);
   }
+  if (results.empty()) return nullptr;
   const Ranges columns = make_ranges(x_values);
   const Ranges rows = make_ranges(y_values);
-  struct Cell {
-    double sum = 0.0;
-    std::size_t count = 0;
-    double mean() const { return sum / static_cast<double>(count); }
-  };
-  std::vector<std::vector<Cell>> cells(rows.names.size(), std::vector<Cell>(columns.names.size()));
+  std::vector<std::vector<double>> sums(rows.names.size(), std::vector<double>(columns.names.size(), 0.0));
+  std::vector<std::vector<std::size_t>> counts(rows.names.size(), std::vector<std::size_t>(columns.names.size(), 0));
   for (std::size_t i = 0; i < results.size(); ++i) {
-    Cell& cell = cells[rows.of_items[i]][columns.of_items[i]];
-    cell.sum += results[i];
-    ++cell.count;
+    sums[rows.of_items[i]][columns.of_items[i]] += results[i];
+    ++counts[rows.of_items[i]][columns.of_items[i]];
   }
-  const double mean = std::accumulate(results.begin(), results.end(), 0.0) / static_cast<double>(results.size());
-  double largest = 0.0;  // deviation of a cell, which has the strongest shade
-  for (const std::vector<Cell>& row : cells) {
-    for (const Cell& cell : row) {
-      if (cell.count > 0) largest = std::max(largest, std::abs(cell.mean() - mean));
+  Json means = Json::array();
+  for (std::size_t row = 0; row < sums.size(); ++row) {
+    Json cells = Json::array();
+    for (std::size_t column = 0; column < sums[row].size(); ++column) {
+      const std::size_t count = counts[row][column];
+      cells.push_back(count > 0 ? Json(sums[row][column] / static_cast<double>(count)) : Json());
     }
+    means.push_back(std::move(cells));
   }
-  const auto show = [&](const Cell& cell) -> Json {
-    if (cell.count == 0) return nullptr;
-    return {{"text", fmt::format("{:.4g}", cell.mean())},
-            {"shade", largest > 0.0 ? std::lround(4.0 * (cell.mean() - mean) / largest) : 0},
-            {"marked", ""},
-            {"note", format_count(cell.count, "item")}};
-  };
-  Block block{{"type", "map"},
-              {"caption", fmt::format("Mean of {} over {} and {}", with_unit(result, comparison::label_result(result)),
-                                      plain_name(last_part(across.key)), plain_name(last_part(down.key)))},
-              {"heads", {with_unit(down.key), ""}},
-              {"columns", columns.names},
-              {"rows", Json::array()},
-              {"legend", fmt::format("Columns: {}. Shades: above and below the mean of all items, {:.4g}.",
-                                     with_unit(across.key), mean)}};
-  for (std::size_t row = 0; row < cells.size(); ++row) {
-    block["rows"].push_back({{"group", ""}, {"label", rows.names[row]}, {"cells", make_list(cells[row], show)}});
-  }
-  return block;
+  return {{"across", {{"key", across.key}, {"ranges", columns.names}}},
+          {"down", {{"key", down.key}, {"ranges", rows.names}}},
+          {"mean", std::accumulate(results.begin(), results.end(), 0.0) / static_cast<double>(results.size())},
+          {"means", means},
+          {"items", counts}};
 }
-
-}  // namespace
 
 Page make_sensitivity_page(const Json& sensitivity, const Table& of_terminal, const std::string& said,
                            const std::vector<FactorScatter>& scatters) {
@@ -165,16 +259,18 @@ Page make_sensitivity_page(const Json& sensitivity, const Table& of_terminal, co
   }
   Page page{"campaign sensitivity", "Sensitivity of " + comparison::label_result(result),
             format_count(sensitivity["factors"].size(), "factor")};
-  page.add({"What the result depends on", explanation, {make_index_bars(sensitivity), make_table(table)}});
+  page.add({"What the result depends on",
+            "",
+            {make_lead("", describe_sensitivity(sensitivity)), make_sensitivity_tiles(sensitivity),
+             make_index_bars(sensitivity), make_paragraph(explanation), make_table(table)}});
   const std::size_t items = scatters.empty() ? 0 : scatters.front().values.size();
   Section over{"Result over the factors",
                items > kMostPoints ? fmt::format("The first {} of {} items, a point each.", kMostPoints, items)
                                    : "Each point is one item of the campaign."};
   for (const FactorScatter& scatter : scatters) over.blocks.push_back(make_factor_chart(result, scatter));
   page.add(std::move(over));
-  if (scatters.size() >= 2) {
-    page.add({"Result over two factors", "", {make_map(result, scatters[0], scatters[1])}});
-  }
+  const Json means = sensitivity.value("over_two_factors", Json());
+  if (!means.is_null()) page.add({"Result over two factors", "", {make_map(result, means)}});
   return page;
 }
 

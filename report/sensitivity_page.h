@@ -16,6 +16,10 @@ struct FactorScatter {
   std::vector<double> results;  // as long
 };
 
+/// The mean result over the first two factors, each in a few ranges: the map of the page, for the document. Null where
+/// there are fewer factors.
+Json make_factor_means(const std::vector<FactorScatter>& scatters);
+
 /// Of the document of rollrig-sensitivity/1: the index of each factor as bars with its interval, a table, the result
 /// over the factors of `scatters`, and a map of its mean over the first two of them. Of each scatter the first 1000
 /// points are drawn: all designs fill the space evenly from their beginning.

@@ -154,6 +154,31 @@ Block make_comparison(const PreparedSet& set, std::size_t run, const std::vector
           {"caption", "Means over blocks of ten seconds."}};
 }
 
+Json list_phase_means(const PreparedSet& set, const SimulatedSet& simulated) {
+  Json means = Json::array();
+  if (simulated.values.empty()) return means;
+  for (const Series& series : set.series()) {
+    const PreparedRun& run = set.runs()[series.run];
+    const Quantity& channel = set.channels()[series.channel];
+    const diagnosis::ReportUnit unit = diagnosis::find_report_unit(set, channel);
+    for (std::size_t phase = 0; phase < run.phases.size(); ++phase) {
+      const double mean = calc_mean_over(phase, series, simulated);
+      if (std::isnan(mean)) continue;
+      means.push_back({{"run", run.measured.id},
+                       {"phase", run.phases[phase].name},
+                       {"channel", channel.header()},
+                       {"mean", unit.per_SI * mean},
+                       {"unit", unit.symbol}});
+    }
+  }
+  return means;
+}
+
+Json list_phase_means(const measurements::MeasurementSet& set) {
+  const PreparedSet prepared(set);
+  return list_phase_means(prepared, simulate_set(prepared, "", measurements::make_context(prepared.source()), {}));
+}
+
 Block make_gap_map(const PreparedSet& set, const SimulatedSet& simulated, const std::vector<Location>& where) {
   Block block = {
       {"type", "map"},
