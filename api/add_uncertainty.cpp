@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
+
 #include "api/option_range.h"
 #include "estimation/uncertainty/uncertainty.h"
 #include "report/blocks.h"
@@ -34,11 +37,21 @@ std::string show_like(const std::string& text, double value) {
   return fmt::format("{:.{}f}", value, point == std::string::npos ? 0 : first.size() - point - 1);
 }
 
+/// Puts the value of a tile, which has its uncertainty now, in place of the value as a sentence has it.
+void replace_number(const std::string& shown, const std::string& value, Json& sentence) {
+  std::string text = sentence.get<std::string>();
+  boost::algorithm::replace_first(text, " " + shown + " ", " " + value + " ");
+  sentence = text;
+}
+
 }  // namespace
 
 void put_budgets_on_tiles(const Json& uncertainty, report::Page& page) {
   const Json& budgets = uncertainty.at("budgets");
-  for (report::Block& block : page.sections.front().blocks) {
+  std::vector<report::Block>& blocks = page.sections.front().blocks;
+  const auto lead =
+      std::find_if(blocks.begin(), blocks.end(), [](const Json& block) { return block.at("type") == "lead"; });
+  for (report::Block& block : blocks) {
     if (block.at("type") != "tiles") continue;
     for (Json& tile : block.at("tiles")) {
       if (!tile.contains("from")) continue;
@@ -48,6 +61,7 @@ void put_budgets_on_tiles(const Json& uncertainty, report::Page& page) {
         const std::string shown = tile.at("value").get<std::string>();
         tile["value"] = shown.substr(0, shown.find(' ')) + " +- " +
                         show_like(shown, budgets[i].at("expanded_uncertainty").get<double>());
+        if (lead != blocks.end()) replace_number(shown, tile["value"], lead->at("text"));
         tile["note"] = fmt::format("+- is the expanded uncertainty (k = {:.2f}) of the whole budget, below",
                                    budgets[i].at("coverage_factor").get<double>());
         tile["from"] = {pointer, fmt::format("/uncertainty/budgets/{}/expanded_uncertainty", i)};

@@ -177,6 +177,18 @@ Block make_alignment_tiles(const AlignmentResult& result) {
         {"/sigma_m_N_per_kN/value"}}});
 }
 
+/// Whether the machine is aligned, and by which line, in a sentence.
+Block make_alignment_lead(const AlignmentFile& file, const AlignmentResult& result) {
+  const estimation::AlignmentLine& line = result.line;
+  return make_lead(
+      result.is_valid ? "good" : "bad",
+      fmt::format(
+          "The alignment of {} is {} until {}: the aligned RRC is {:.4f} times the measured one, {} {:.4f} N/kN.",
+          name_or(file.machine, "the machine"), result.is_valid ? "valid" : "not valid; it would be valid",
+          estimation::format_day(result.valid_until_s), line.calc_factor(), line.calc_offset() < 0.0 ? "less" : "plus",
+          std::abs(line.calc_offset())));
+}
+
 }  // namespace
 
 std::string describe_alignment_verdict(const AlignmentResult& result) {
@@ -205,9 +217,9 @@ Page make_alignment_page(const AlignmentFile& file, const AlignmentResult& resul
   Page page{"align", fmt::format("Alignment of a machine: {}", name_or(file.machine, file.path.c_str())),
             fmt::format("{}, classes {}", format_count(file.tires.size(), "tire"), file.rules.classes)};
   Section section = make_section("Result", make_alignment_tables(file, result), result.warnings);
-  section.blocks.insert(section.blocks.begin(), make_alignment_tiles(result));
+  put_first({make_alignment_lead(file, result), make_alignment_tiles(result), make_line_chart(result)}, section);
   page.add(std::move(section));
-  page.add({"The line", "", {make_equations("align"), make_line_chart(result), make_alignment_residual_chart(result)}});
+  page.add({"The line", "", {make_equations("align"), make_alignment_residual_chart(result)}});
   Section controls{"Control tires over time"};
   for (const ControlChart& chart : result.monitoring.charts) {
     if (chart.time_s.size() > 1) controls.blocks.push_back(make_control_chart(chart));

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 
 #include "comparison/compared.h"
@@ -50,7 +51,7 @@ Block make_tiles(const std::vector<Tile>& tiles) {
 Block make_table(const Table& table) {
   Block block = {{"type", "lines"}, {"lines", Json::array()}};
   if (!table.columns.empty()) block = {{"type", "table"}, {"columns", Json::array()}, {"rows", Json::array()}};
-  if (!table.title.empty()) block["caption"] = table.title;
+  if (!table.title.empty()) block["caption"] = pretty_unit(table.title);
   for (const std::string& column : table.columns) block["columns"].push_back({{"label", pretty_unit(column)}});
   for (const std::vector<std::string>& row : table.rows) {
     if (table.columns.empty()) {
@@ -83,7 +84,7 @@ Json ChartSeries::finish(const std::string& name, const char* kind) const {
 
 Block make_curves(const Axis& x, const Axis& y, Json series, const std::string& caption) {
   const auto to_json = [](const Axis& axis) {
-    Json json = {{"label", axis.label}, {"unit", axis.unit}};
+    Json json = {{"label", pretty_unit(axis.label)}, {"unit", pretty_unit(axis.unit)}};
     if (axis.from_zero) json["from_zero"] = true;
     return json;
   };
@@ -93,9 +94,10 @@ Block make_curves(const Axis& x, const Axis& y, Json series, const std::string& 
 }
 
 Block make_bars(const Axis& y, Json categories, Json series, const std::string& caption) {
+  for (Json& category : categories) category = pretty_unit(category);
   Block block = {{"type", "bars"},
-                 {"label", y.label},
-                 {"unit", y.unit},
+                 {"label", pretty_unit(y.label)},
+                 {"unit", pretty_unit(y.unit)},
                  {"categories", std::move(categories)},
                  {"series", std::move(series)}};
   if (!caption.empty()) block["caption"] = caption;
@@ -158,6 +160,11 @@ Block make_lead(const std::string& tone, const std::string& text, const std::str
   return block;
 }
 
+void put_first(std::vector<Block> blocks, Section& section) {
+  section.blocks.insert(section.blocks.begin(), std::make_move_iterator(blocks.begin()),
+                        std::make_move_iterator(blocks.end()));
+}
+
 std::string pretty_unit(std::string symbol) {
   for (std::size_t at = symbol.find("degC"); at != std::string::npos; at = symbol.find("degC", at + 1)) {
     const std::size_t first = symbol.find_last_of(' ', at) + 1;  // of no space: 0
@@ -168,7 +175,10 @@ std::string pretty_unit(std::string symbol) {
                                       {"m/s2", "m/s²"},
                                       {"kg m2", "kg m²"},
                                       {"s2/m2", "s²/m²"},
-                                      {"/mph2", "/mph²"}}) {
+                                      {"/mph2", "/mph²"},
+                                      {"(km/h)^2", "(km/h)²"},
+                                      {"kPa^-alpha", "kPa⁻ᵅ"},
+                                      {"N^-beta", "N⁻ᵝ"}}) {
     boost::algorithm::replace_all(symbol, plain, pretty);
   }
   return symbol;

@@ -109,6 +109,9 @@ Block make_paragraph(const std::string& text);
 /// A sentence on top; tone: good, doubt or bad.
 Block make_lead(const std::string& tone, const std::string& text, const std::string& more = "");
 
+/// Puts blocks before those that the section has: what it says in a sentence, its tiles, its first chart.
+void put_first(std::vector<Block> blocks, Section& section);
+
 /// Values in the unit of a key: "load_kN" takes N.
 std::vector<double> in_unit_of(const std::string& key, std::vector<double> values_SI);
 /// The unit of a key as a person reads it: "°C" of "ambient_degC".

@@ -81,6 +81,10 @@ Page make_campaign_page(const PlannedCampaign& campaign) {
   Section what{"What it would show"};
   const std::size_t visible = diagnosis::count_visible(campaign);
   what.blocks.push_back(
+      make_lead(visible > 0 ? "good" : "doubt",
+                fmt::format("In {:.1f} h, {} would show {} of {} effects at their usual size.", campaign.hours,
+                            format_count(campaign.ledger.size(), "test"), visible, campaign.effects.size())));
+  what.blocks.push_back(
       make_tiles({{"Visible effects",
                    fmt::format("{} of {}", visible, campaign.effects.size()),
                    "",
@@ -94,12 +98,10 @@ Page make_campaign_page(const PlannedCampaign& campaign) {
                    "",
                    {"/hours"}},
                   {"Tests", fmt::format("{}", campaign.ledger.size()), "", "in their order below", "", {}}}));
-  what.blocks.push_back(make_lead(
-      visible > 0 ? "good" : "doubt",
-      fmt::format("{} of {} effects would be visible at their usual size.", visible, campaign.effects.size()),
+  what.blocks.push_back(make_shares(campaign));
+  what.blocks.push_back(make_paragraph(
       "A visible effect changes the measurement by 5 standard deviations more than the uncertain numbers of the files "
       "can imitate. Which effect it is, the diagnosis of the tests says."));
-  what.blocks.push_back(make_shares(campaign));
   what.blocks.push_back(make_table(make_named_effects(campaign)));
   page.add(std::move(what));
   page.add({"Tests", "", {make_course(campaign), make_table(make_named_tests(campaign))}});

@@ -241,9 +241,16 @@ Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) 
             format_count(set.runs.size(), "run")};
   Section result = make_section("Result", make_drum_coastdown_tables(set, fit), fit.warnings);
   const std::vector<Tile> tiles = make_coast_tiles(set, fit);
-  if (!tiles.empty()) result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
+  std::vector<Block> first;
+  if (!tiles.empty()) {
+    const Tile& main = tiles.front();
+    first.push_back(make_lead("", fmt::format("{} is {} {} {}.", main.label, main.value, main.unit, main.note)));
+    first.push_back(make_tiles(tiles));
+  }
+  first.push_back(make_net_chart(set, fit));
+  put_first(std::move(first), result);
   page.add(std::move(result));
-  page.add({"Over speed", "", {make_equations("fit drum_coastdown"), make_net_chart(set, fit)}});
+  page.add({"Law of the coasts", "", {make_equations("fit drum_coastdown")}});
   const bool has_exponent = std::any_of(fit.points.begin(), fit.points.end(),
                                         [](const SpeedPoint& point) { return point.pressure_exponent.has_value(); });
   if (has_exponent) page.add({"Pressure", "", {make_exponent_chart(fit)}});

@@ -124,33 +124,60 @@ Table make_regress_table(const Json& regression) {
   return table;
 }
 
+namespace {
+
+/// Worst difference of each run that was compared; the axis goes to 1 at least, from which on a run differs.
+Block make_regress_bars(const Json& names, const Json& shares) {
+  Block bars = make_bars({"Worst difference of each run from its golden", "of its tolerance", true}, names,
+                         Json::array({{{"name", "worst"}, {"values", shares}}}),
+                         "A run differs where its bar is above 1. Runs without a golden have no bar.");
+  bars["least_end"] = 1.0;
+  Json labels = Json::array();
+  for (const Json& share : shares) labels.push_back(show_share(share));
+  bars["series"][0]["labels"] = labels;
+  return bars;
+}
+
+}  // namespace
+
 Page make_regress_page(const Json& regression) {
   const Json& runs = regression["runs"];
   std::size_t good = 0;
+  std::vector<std::pair<std::string, std::size_t>> others;  // status and how many, in their order
+  double most = 0.0;                                        // share of the tolerance
   std::vector<std::string> problems;
   Json names = Json::array();
   Json shares = Json::array();
   for (const Json& run : runs) {
     const std::string name = run["name"];
     const std::string status = run["status"];
-    if (status == "same" || status == "updated") ++good;
+    if (status == "same" || status == "updated") {
+      ++good;
+    } else {
+      const auto known =
+          std::find_if(others.begin(), others.end(), [&](const auto& one) { return one.first == status; });
+      known == others.end() ? others.emplace_back(status, 1) : (++known->second, *known);
+    }
     for (const Json& problem : run["problems"]) problems.push_back(name + ": " + problem.get<std::string>());
+    if (run["compared"] == 0) continue;  // nothing to draw
     names.push_back(name);
-    shares.push_back(
-        run["worst_share_of_tolerance"].is_null() ? Json() : rounded(run["worst_share_of_tolerance"].get<double>()));
+    const Json share = run["worst_share_of_tolerance"];
+    shares.push_back(share.is_null() ? Json() : rounded(share.get<double>()));
+    if (!share.is_null()) most = std::max(most, share.get<double>());
   }
   const bool is_good = good == runs.size();
   Page page{"regress", "Regression runs against their goldens", format_count(runs.size(), "run")};
   Section verdict{"Verdict"};
-  verdict.blocks.push_back(make_tiles(
-      {{"As their goldens", fmt::format("{} of {}", good, runs.size()), "", "runs", is_good ? "good" : "bad", {}}}));
-  verdict.blocks.push_back(make_lead(
-      is_good ? "good" : "bad",
-      is_good ? fmt::format("As their goldens: {}.", format_count(runs.size(), "run"))
-              : fmt::format("{} of {} differ from the golden.", runs.size() - good, format_count(runs.size(), "run"))));
-  verdict.blocks.push_back(make_bars({"Worst difference of each run", "of its tolerance"}, names,
-                                     Json::array({{{"name", "worst"}, {"values", shares}}}),
-                                     "A run differs where its bar is above 1."));
+  std::string text = fmt::format("{} of {} give the values of their goldens", good, format_count(runs.size(), "run"));
+  for (const auto& [status, count] : others) text += fmt::format("; {}: {}", status, count);
+  verdict.blocks.push_back(make_lead(is_good ? "good" : "bad", text + "."));
+  std::vector<Tile> tiles{
+      {"As their goldens", fmt::format("{} of {}", good, runs.size()), "", "runs", is_good ? "good" : "bad", {}}};
+  for (const auto& [status, count] : others) {
+    tiles.push_back({capitalized(status), fmt::format("{}", count), "", "of the runs", "bad", {}});
+  }
+  verdict.blocks.push_back(make_tiles(tiles));
+  if (most > 0.0) verdict.blocks.push_back(make_regress_bars(names, shares));
   Table table = make_regress_table(regression);
   for (std::vector<std::string>& row : table.rows) row.back() = name_quantity(row.back());
   verdict.blocks.push_back(make_table(table));

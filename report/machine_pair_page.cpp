@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <cmath>
 
 #include "diagnosis/output/machine_pair_output.h"
@@ -60,6 +61,16 @@ Block make_probability_bars(const PairFindings& findings) {
   }
   return make_bars({"Probability", "%", true}, names, {{{"name", "probability"}, {"values", values}}},
                    "agree: nothing makes the machines differ. unknown: something outside the catalog.");
+}
+
+/// The verdict of the terminal as a sentence, with the names of effects in place of their ids.
+std::string describe_pair(const PairFindings& findings) {
+  std::string text = diagnosis::describe_pair_verdict(findings) + ".";
+  for (const MachineDifference& cause : findings.causes) {
+    for (const std::string& id : cause.effects) boost::algorithm::replace_all(text, id, plain_name(id));
+  }
+  boost::algorithm::replace_first(text, "they", "machines A and B");
+  return capitalized(text);
 }
 
 Block make_pair_tiles(const PairFindings& findings) {
@@ -156,9 +167,9 @@ Page make_machine_pair_page(const PairFindings& findings) {
             fmt::format("A: {} ({}), B: {} ({})", findings.machines[0], findings.sets[0], findings.machines[1],
                         findings.sets[1])};
   Section verdict{"Verdict"};
-  verdict.blocks.push_back(make_pair_tiles(findings));
   const char* tone = findings.verdict == PairVerdict::kUnexplained ? "bad" : "good";
-  verdict.blocks.push_back(make_lead(tone, capitalized(diagnosis::describe_pair_verdict(findings)) + "."));
+  verdict.blocks.push_back(make_lead(tone, describe_pair(findings)));
+  verdict.blocks.push_back(make_pair_tiles(findings));
   if (!findings.warnings.empty()) verdict.blocks.push_back(make_warnings(findings.warnings));
   page.add(std::move(verdict));
   if (std::isfinite(findings.difference.value_N_per_kN)) {

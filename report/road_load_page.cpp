@@ -151,6 +151,21 @@ Block make_load_tiles(const RoadLoadFitOptions& options, const RoadLoadFit& fit)
   return make_tiles(tiles);
 }
 
+/// The road load in a sentence.
+Block make_load_lead(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
+  const std::vector<ParameterEstimate> coefficients = estimation::list_coefficients(fit);
+  const auto show = [&](std::size_t i) {
+    return fmt::format("{:.4g} {}", coefficients[i].value, coefficients[i].unit);
+  };
+  constexpr std::size_t kAt80 = 2;  // of shown_speeds_m_s()
+  const estimation::ShownForce at_80 = estimation::list_shown_forces(options, fit)[kAt80];
+  const std::string start = at_80.is_outside
+                                ? std::string("The road load at reference conditions is A + B v + C v²")
+                                : fmt::format("The road load at 80 km/h is {:.4g} +- {:.2g} {} at reference conditions",
+                                              at_80.force_N, at_80.sd_N, force_unit(fit));
+  return make_lead("", fmt::format("{}: A = {}, B = {}, C = {}.", start, show(0), show(1), show(2)));
+}
+
 /// Speed over time of every run, each from its own start; none where the file has times through bins alone.
 Block make_run_chart(const estimation::CoastdownFile& file) {
   constexpr std::size_t kMost = 300;  // points of a line: more than it has bends
@@ -247,12 +262,12 @@ Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFi
                         format_count(fit.points.size(), "speed bin"),
                         file.is_trace ? "from speed traces" : "from times through bins")};
   Section result = make_section("Result", make_road_load_tables(options, fit, checks), fit.warnings);
-  result.blocks.insert(result.blocks.begin(), make_load_tiles(options, fit));
+  put_first({make_load_lead(options, fit), make_load_tiles(options, fit), make_force_chart(file, fit)}, result);
   page.add(std::move(result));
   Section runs{"Runs"};
   if (file.is_trace) runs.blocks.push_back(make_run_chart(file));
   runs.blocks.push_back(make_time_chart(file, fit));
-  page.add({"Data and fit", "", {make_equations("coastdown"), make_force_chart(file, fit)}});
+  page.add({"Law of the road load", "", {make_equations("coastdown")}});
   page.add(std::move(runs));
   page.add({"Residuals", "", {make_road_residual_chart(file, fit)}});
   page.add(make_document(estimation::make_road_load_json(file, options, fit, checks), "The fit as JSON"));

@@ -219,6 +219,22 @@ Block make_procedure_tiles(const RoadLoadProcedure& procedure) {
   return make_tiles(tiles);
 }
 
+/// The road load in a sentence, and whether the test meets its standard.
+Block make_procedure_lead(const RoadLoadProcedure& procedure) {
+  const std::vector<ParameterEstimate> coefficients = list_procedure_coefficients(procedure);
+  const auto show = [&](std::size_t i) {
+    return fmt::format("{:.4g} {}", coefficients[i].value, coefficients[i].unit);
+  };
+  const auto failed = std::count_if(procedure.checks.begin(), procedure.checks.end(),
+                                    [](const auto& check) { return check.status == estimation::CheckStatus::kFail; });
+  const std::string checks = failed == 0 ? "No check of the standard failed."
+                                         : fmt::format("{} of {} of the standard failed.", failed,
+                                                       format_count(procedure.checks.size(), "check"));
+  return make_lead(failed == 0 ? "good" : "bad",
+                   fmt::format("The road load at reference conditions is f0 = {}, f1 = {}, f2 = {}. {}", show(0),
+                               show(1), show(2), checks));
+}
+
 }  // namespace
 
 std::string title_of(RoadLoadProcedureKind kind) {
@@ -335,9 +351,9 @@ std::string write_procedure_points(const RoadLoadProcedure& procedure) {
 Page make_procedure_page(const RoadLoadProcedure& procedure, const std::string& source) {
   Page page{"fit road-load", "Road load: " + title_of(procedure.kind), source};
   Section result = make_section("Result", make_procedure_tables(procedure), procedure.warnings);
-  result.blocks.insert(result.blocks.begin(), make_procedure_tiles(procedure));
+  put_first({make_procedure_lead(procedure), make_procedure_tiles(procedure), make_resistance_chart(procedure)},
+            result);
   page.add(std::move(result));
-  page.add({"Data and fit", "", {make_resistance_chart(procedure)}});
   page.add(make_document(make_procedure_json(procedure), "The result as JSON"));
   return page;
 }

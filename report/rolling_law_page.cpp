@@ -228,6 +228,26 @@ Tile make_middle_tile(const J2452Fit& fit) {
           {}};
 }
 
+/// The tables of the terminal, of which the first has the law in its title and letters by name: the page has the law
+/// typeset beside it.
+std::vector<Table> typeset_law(std::vector<Table> tables) {
+  Table& coefficients = tables.front();
+  coefficients.title.erase(coefficients.title.find(':'));
+  for (std::vector<std::string>& row : coefficients.rows) {
+    if (row.front() == "alpha") row.front() = "α";
+    if (row.front() == "beta") row.front() = "β";
+  }
+  return tables;
+}
+
+/// The first tile in a sentence: its value, and in brackets where it is.
+Block make_law_lead(const std::vector<Tile>& tiles) {
+  const Tile& main = tiles.front();
+  std::string where = main.note.substr(0, main.note.find(';'));
+  if (where.rfind("at ", 0) == 0) where.erase(0, 3);
+  return make_lead("", fmt::format("{} ({}) is {} {}.", main.label, where, main.value, main.unit));
+}
+
 }  // namespace
 
 std::vector<Table> make_j2452_tables(const J2452Fit& fit, const std::optional<J2452Reference>& reference) {
@@ -252,7 +272,8 @@ Page make_j2452_page(const estimation::RollingTest& test, const J2452Fit& fit,
                      const std::optional<J2452Reference>& reference) {
   Page page{"fit j2452", "Rolling resistance by SAE J2452",
             fmt::format("{}{}", test.tire.empty() ? "" : test.tire + ", ", format_count(fit.points.size(), "point"))};
-  Section result = make_section("Result", make_j2452_tables(fit, reference), collect_warnings(test, fit.warnings));
+  Section result =
+      make_section("Result", typeset_law(make_j2452_tables(fit, reference)), collect_warnings(test, fit.warnings));
   std::vector<Tile> tiles;
   if (reference.has_value()) {
     tiles = make_reference_tiles(reference->force, reference->condition, fit.statistics.freedom);
@@ -273,18 +294,17 @@ Page make_j2452_page(const estimation::RollingTest& test, const J2452Fit& fit,
   tiles.push_back({"Pressure exponent",
                    fmt::format("{:.3f}", fit.law.alpha),
                    "",
-                   "alpha: rolling resistance goes with pressure to this power",
+                   "α: rolling resistance goes with pressure to this power",
                    "",
                    {"/coefficients/alpha/value"}});
   tiles.push_back({"Load exponent",
                    fmt::format("{:.3f}", fit.law.beta),
                    "",
-                   "beta: likewise with load",
+                   "β: likewise with load",
                    "",
                    {"/coefficients/beta/value"}});
-  result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
+  put_first({make_law_lead(tiles), make_tiles(tiles), make_speed_chart(fit), make_equations("sae_j2452")}, result);
   page.add(std::move(result));
-  page.add({"Points and law", "", {make_equations("sae_j2452"), make_speed_chart(fit)}});
   page.add({"Law over load and pressure", "", {make_load_chart(fit)}});
   page.add({"Residuals", "", {make_residual_chart_of(fit.points, true)}});
   page.add(make_document(estimation::make_j2452_json(test, fit, reference), "The fit as JSON"));
@@ -316,7 +336,8 @@ Page make_multipoint_page(const estimation::RollingTest& test, const MultipointF
   Page page{"fit j1269", "Rolling resistance by SAE J1269",
             fmt::format("{}{}, {:.1f} km/h", test.tire.empty() ? "" : test.tire + ", ",
                         format_count(fit.points.size(), "point"), kKmhPerMs * fit.speed_m_s)};
-  Section result = make_section("Result", make_multipoint_tables(fit, reference), collect_warnings(test, fit.warnings));
+  Section result =
+      make_section("Result", typeset_law(make_multipoint_tables(fit, reference)), collect_warnings(test, fit.warnings));
   std::vector<Tile> tiles;
   if (reference.has_value()) {
     tiles = make_reference_tiles(reference->force, reference->condition, fit.statistics.freedom);
@@ -327,11 +348,10 @@ Page make_multipoint_page(const estimation::RollingTest& test, const MultipointF
                    format_count(fit.points.size(), "point"),
                    "",
                    {"/mean_rrc_N_per_kN"}});
-  result.blocks.insert(result.blocks.begin(), make_tiles(tiles));
-  page.add(std::move(result));
   const char* form =
       fit.form == estimation::MultipointForm::kBilinear ? "fit j1269 bilinear" : "fit j1269 proportional";
-  page.add({"Points and law", "", {make_equations(form), make_multipoint_chart(fit)}});
+  put_first({make_law_lead(tiles), make_tiles(tiles), make_multipoint_chart(fit), make_equations(form)}, result);
+  page.add(std::move(result));
   page.add({"Residuals", "", {make_residual_chart_of(fit.points, false)}});
   page.add(make_document(estimation::make_multipoint_json(test, fit, reference), "The fit as JSON"));
   return page;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "models/quantities.h"
 #include "report/blocks.h"
@@ -55,6 +56,34 @@ Block make_cycle_forces(const Json& cycles) {
 Block make_cycle_coefficients(const Json& cycles) {
   return make_bars({"Rolling resistance coefficient", "N/kN"}, make_cycle_names(cycles),
                    Json::array({make_bar_series("RRc", cycles, "rrc_N_per_kN")}));
+}
+
+/// Resistance from cycle to cycle, over what differs between them; as bars where several things do.
+Block make_cycle_course(const Json& cycles) {
+  struct Varied {
+    const char* key;
+    Axis axis;
+  };
+  std::vector<Varied> varied;
+  for (const Varied& one : {Varied{"load_N", {"Load", "N"}}, Varied{"speed_km_h", {"Speed", "km/h"}},
+                            Varied{"pressure_set_kPa", {"Pressure set", "kPa"}}}) {
+    constexpr double kSame = 1e-3;
+    const double first = cycles.front().value(one.key, 0.0);
+    const bool differs = std::any_of(cycles.begin(), cycles.end(), [&](const Json& cycle) {
+      return std::abs(cycle.value(one.key, 0.0) - first) > kSame * first;
+    });
+    if (differs) varied.push_back(one);
+  }
+  if (varied.size() != 1) return make_cycle_coefficients(cycles);
+  std::vector<std::pair<double, double>> points;
+  for (const Json& cycle : cycles) {
+    points.emplace_back(cycle.value(varied.front().key, 0.0), cycle.value("rrc_N_per_kN", std::nan("")));
+  }
+  std::sort(points.begin(), points.end());
+  ChartSeries line;
+  for (const auto& [at, rrc] : points) line.add(at, rrc);
+  return make_curves(varied.front().axis, {"Rolling resistance coefficient", "N/kN"},
+                     Json::array({line.finish("RRc", "line")}));
 }
 
 Json make_curve(const char* name, const Json& rows, const char* x, const char* y) {
@@ -121,7 +150,74 @@ Block make_coast_chart(const std::vector<CoastRun>& runs) {
   return make_curves({"Time since the start of the coastdown", "s"}, {"Speed", "km/h", true}, series);
 }
 
+/// Where the values of a sum lead, part by part.
+Block make_parts(const WaterfallBar& start, const WaterfallBar& part, const WaterfallBar& end) {
+  return make_waterfall({"Force at the surface", "N"}, start, {part}, end);
+}
+
+/// Rolling resistance over the time under load; none where no channel has it, or nothing is loaded.
+std::optional<Block> make_loss_course(const sim::Recording<double>& recording) {
+  constexpr double kLoaded = 0.5;     // of the largest load
+  constexpr std::size_t kMost = 600;  // points of a line: more than it has bends
+  constexpr double kPerMin = 1.0 / 60.0;
+  const auto find = [&recording](const Quantity& quantity) -> const std::vector<double>* {
+    for (std::size_t i = 0; i < recording.channels.size(); ++i) {
+      const std::string_view name = recording.channels[i].quantity.name();
+      if (name.rfind(quantity.name(), 0) == 0) return &recording.values[i];  // of a vehicle, the first wheel
+    }
+    return nullptr;
+  };
+  const std::vector<double>* loss_N = find(models::quantities::kRollingResistance);
+  const std::vector<double>* load_N = find(models::quantities::kLoad);
+  if (loss_N == nullptr || load_N == nullptr) return std::nullopt;
+  const double most_N = *std::max_element(load_N->begin(), load_N->end());
+  const std::vector<double>& speed_m_s = recording.channel(models::quantities::kSpeed);
+  std::vector<double> time_min, shown_N;
+  double start_s = 0.0;
+  for (std::size_t row = 1; row < loss_N->size(); ++row) {
+    const bool is_loaded = (*load_N)[row] > kLoaded * most_N && std::abs(speed_m_s[row]) > 0.05;
+    const bool was_loaded =
+        (*load_N)[row - 1] > kLoaded * most_N;  // the first row under load is a mean across its start
+    if (!is_loaded && shown_N.empty()) continue;
+    if (shown_N.empty()) start_s = recording.time_s[row];
+    time_min.push_back(kPerMin * (recording.time_s[row] - start_s));
+    shown_N.push_back(is_loaded && was_loaded ? (*loss_N)[row] : std::nan(""));
+  }
+  if (shown_N.empty()) return std::nullopt;
+  ChartSeries line;
+  for (const std::size_t row : thin(time_min, shown_N, kMost)) line.add(time_min[row], shown_N[row]);
+  return make_curves({"Time under load", "min"}, {"Rolling resistance", "N"},
+                     Json::array({line.finish("rolling resistance", "line")}));
+}
+
 }  // namespace
+
+std::optional<Block> make_first_figure(const Json& result, const sim::Recording<double>& recording) {
+  const auto list = [&result](const char* key) {
+    const Json rows = result.value(key, Json::array());
+    return rows.is_array() ? rows : Json::array();
+  };
+  const auto number = [&result](const char* key) { return result.at(key).get<double>(); };
+  if (!list("force_N").empty()) return make_road_load(list("force_N"));
+  if (!list("differences").empty()) return make_setting(list("differences"));
+  if (!list("points").empty()) return make_skim_line(list("points"));
+  const Json sections = list("sections");
+  if (!sections.empty() && has_numbers(sections, "difference_percent")) return make_section_energies(sections);
+  if (list("cycles").size() > 1 && !result.contains("rrc_25degC_2m_N_per_kN")) {
+    return make_cycle_course(list("cycles"));
+  }
+  if (result.contains("rrc_25degC_2m_N_per_kN")) {
+    const double loss_N = number("rolling_resistance_N"), parasitic_N = number("parasitic_N");
+    return make_parts({"measured under load", loss_N + parasitic_N}, {"parasitic loss, by the skim test", -parasitic_N},
+                      {"rolling resistance", loss_N});
+  }
+  if (result.contains("rig_alone_N") && result.contains("tire_share_N")) {
+    const double rig_N = number("rig_alone_N"), tire_N = number("tire_share_N");
+    return make_parts({"the rig alone", rig_N}, {"the tire, at the skim load", tire_N},
+                      {"measured in the skim test", rig_N + tire_N});
+  }
+  return make_loss_course(recording);
+}
 
 Section make_coast_figures(const Json& result, const sim::Recording<double>& recording) {
   Section section{"Coastdowns"};
@@ -138,15 +234,11 @@ Section make_run_figures(const Json& result) {
   };
   if (result.contains("sections")) section.title = "Section by section";
   const Json sections = result.value("sections", Json::array());
-  if (has_numbers(sections, "difference_percent")) add("sections", make_section_energies);
   if (has_numbers(sections, "temperature_start_degC")) add("sections", make_section_temperatures);
   if (result.contains("cycles") && result["cycles"].size() > 1) {
-    add("cycles", make_cycle_coefficients);
+    if (result.contains("rrc_25degC_2m_N_per_kN")) add("cycles", make_cycle_coefficients);
     add("cycles", make_cycle_forces);
   }
-  add("force_N", make_road_load);
-  add("differences", make_setting);
-  add("points", make_skim_line);
   return section;
 }
 

@@ -114,6 +114,33 @@ Block make_sweep_curves(const Json& sweep, const std::vector<std::string>& axes,
   return make_curves({capitalized(name_axis(drawn)), shown_unit(last_part(drawn))}, y, series);
 }
 
+/// Value of a result at a point, with its unit.
+std::string show_result(double value, const std::string& key) {
+  const std::string unit = shown_unit(key);
+  return fmt::format("{:.4g}{}", value, unit.empty() ? "" : " " + unit);
+}
+
+/// Conditions of the test that differ from tire to tire, as its own load does: "load: a40 5570 N, a50 6865 N"; empty
+/// where nothing differs, or where tires are not what is varied.
+std::string describe_other_conditions(const Json& sweep, const std::vector<std::string>& axes) {
+  constexpr const char* kConditions[] = {"load_N", "speed_km_h", "pressure_set_kPa"};
+  if (axes != std::vector<std::string>{kTireAxis}) return "";
+  std::vector<std::string> texts;
+  for (const char* key : kConditions) {
+    const std::vector<double> values = list_results(sweep, key);
+    const bool differs = std::any_of(values.begin(), values.end(), [&](double value) {
+      return std::abs(value - values.front()) > 1e-3 * std::abs(values.front());
+    });
+    if (!differs) continue;
+    std::vector<std::string> each;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      each.push_back(axis_text(sweep["points"][i], kTireAxis) + " " + show_result(values[i], key));
+    }
+    texts.push_back(fmt::format("{}: {}", name_axis(key), fmt::join(each, ", ")));
+  }
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 /// A result over two variables as shades, with its numbers.
 Block make_heat_map(const Json& sweep, const std::vector<std::string>& axes, const std::string& key,
                     const std::string& name) {
@@ -188,6 +215,13 @@ Tile make_point_tile(const Json& sweep, std::size_t point, const std::string& ke
   return tile;
 }
 
+/// "RRc at 25 °C, 2 m drum is 5.204 N/kN at pressure 250 kPa."
+std::string describe_tile(const Tile& tile) {
+  const std::string unit = tile.unit.empty() ? "" : " " + tile.unit;
+  const char* before = tile.note.rfind("the same", 0) == 0 ? "," : " at";
+  return fmt::format("{} is {}{}{} {}.", pretty_unit(tile.label), tile.value, unit, before, tile.note);
+}
+
 /// What matters most, where nothing changes from point to point, as with a single one.
 std::vector<Tile> make_equal_tiles(const Json& sweep, const Headlines& headlines) {
   constexpr std::size_t kMost = 4;
@@ -233,6 +267,42 @@ std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::string& key, co
     }
   }
   return tiles;
+}
+
+/// What the sweep found of a result, in a sentence.
+std::string describe_sweep(const Json& sweep, const std::vector<std::string>& axes, const std::string& key,
+                           const std::string& name) {
+  const std::vector<double> values = list_results(sweep, key);
+  std::size_t lowest = values.size(), highest = values.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    if (lowest == values.size() || values[i] < values[lowest]) lowest = i;
+    if (highest == values.size() || values[i] > values[highest]) highest = i;
+  }
+  if (lowest == values.size()) return "";
+  const auto place = [&](std::size_t i) { return name_sweep_line(sweep["points"][i], axes); };
+  if (!(values[lowest] < values[highest])) {
+    return fmt::format("{} is {} {}.", name, show_result(values[lowest], key),
+                       values.size() == 1 ? "at " + place(lowest) : fmt::format("in all {} runs", values.size()));
+  }
+  std::vector<std::string> slopes;
+  bool falls = false;
+  for (const Json& sensitivity : sweep["sensitivities"]) {
+    if (sensitivity["result"] != key || !sensitivity.value("is_straight", true)) continue;
+    falls = sensitivity["percent"].get<double>() < 0.0;
+    slopes.push_back(fmt::format("{:+.2f} % per {} of {}", sensitivity["percent"].get<double>(),
+                                 sensitivity["per"].get<std::string>(), name_axis(sensitivity["varied"])));
+  }
+  const std::string changes = slopes.empty() ? "" : fmt::format(": {}", fmt::join(slopes, " and "));
+  if (axes.size() == 1 && is_numeric_axis(sweep, axes.front())) {
+    const bool is_monotonic = !slopes.empty();
+    const std::size_t from = is_monotonic && falls ? highest : lowest, to = is_monotonic && falls ? lowest : highest;
+    return fmt::format("{} {} {} at {} to {} at {}{}.", name,
+                       is_monotonic ? falls ? "falls from" : "rises from" : "goes from", show_result(values[from], key),
+                       place(from), show_result(values[to], key), place(to), changes);
+  }
+  return fmt::format("{} is lowest with {}, {}, and highest with {}, {}{}.", name, place(lowest),
+                     show_result(values[lowest], key), place(highest), show_result(values[highest], key), changes);
 }
 
 std::vector<std::string> list_point_failures(const Json& sweep) {
@@ -288,6 +358,15 @@ Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const st
   const std::vector<Tile> tiles = shown.empty()
                                       ? make_equal_tiles(sweep, headlines)
                                       : make_sweep_tiles(sweep, shown.front(), name_result(shown.front(), headlines));
+  if (!shown.empty()) {
+    const std::string others = describe_other_conditions(sweep, axes);
+    const std::string text = describe_sweep(sweep, axes, shown.front(), name_result(shown.front(), headlines));
+    if (!text.empty()) {
+      charts.blocks.push_back(make_lead("", text, others.empty() ? "" : "The tests differ in their " + others + "."));
+    }
+  } else if (!tiles.empty()) {
+    charts.blocks.push_back(make_lead("", describe_tile(tiles.front())));
+  }
   if (!tiles.empty()) charts.blocks.push_back(make_tiles(tiles));
   const std::vector<std::string> failures = list_point_failures(sweep);
   if (!failures.empty()) charts.blocks.push_back(make_warnings(failures));

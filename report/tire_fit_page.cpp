@@ -144,6 +144,17 @@ Block make_steady_tiles(const TireFit& fit) {
                       {"/rest_in_noise"}}});
 }
 
+/// What the fit found, in a sentence.
+Block make_fit_lead(const TireFit& fit) {
+  const estimation::SteadyTire& steady = fit.steady;
+  return make_lead(
+      "", fmt::format("Warm, at 80 km/h and 25 degC, the tire has an RRc of {} N/kN ({:.0f} N, {:.0f} kPa). Its loss "
+                      "falls by {} % per K, and it warms up with a time constant of {} min.",
+                      show_uncertain(steady.rrc, 1e-3, 3), steady.at.load_N,
+                      unit_of_key("pressure_kPa").from_si(steady.at.pressure_Pa),
+                      show_uncertain(steady.fall_per_K, 1e-2, 2), show_uncertain(steady.time_constant_s, 60.0, 1)));
+}
+
 Block make_correlations(const TireFit& fit) {
   Block block = {{"type", "map"},
                  {"caption", "Correlation of the estimates"},
@@ -198,7 +209,7 @@ Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& 
       fmt::format("From tire {}, rig {}, {}", set.tire.name, set.rig->name, format_count(set.runs.size(), "run"))};
   const Json document = estimation::make_fit_json(set, fit);
   Section result = make_section("Result", make_tire_fit_tables(fit), name_keys(fit.warnings, fit));
-  result.blocks.insert(result.blocks.begin(), {make_steady_tiles(fit), make_forest(fit)});
+  put_first({make_fit_lead(fit), make_steady_tiles(fit), make_forest(fit)}, result);
   page.add(std::move(result));
   const diagnosis::PreparedSet prepared(set);
   SimulatedSet fitted = simulate_set(prepared, "fit", make_fitted_context(prepared.source(), fit), {});

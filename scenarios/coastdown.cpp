@@ -82,6 +82,10 @@ struct Results {
     visit(Result{"force_at_80_N", "", ".1f", "A + B v + C v^2 at 80 km/h"}, force_at_80_N);
     visit(Result{"force_at_80_N_sd", "", ".1f", "its standard deviation"}, force_at_80_sd_N);
     visit(JointLine{"Force at 80 km/h", "{force_at_80_N} +- {force_at_80_N_sd}"});
+    visit(Summary{
+        fmt::format("The road load at 80 km/h is {{force_at_80_N}} +- {{force_at_80_N_sd}}, {}: A = {{A_N}}, B = "
+                    "{{B_N_per_km_h}}, C = {{C_N_per_km_h2}}.",
+                    on_road ? "at reference conditions" : "of rollers and vehicle as tested")});
     visit(Headline{"Road load at 80 km/h", "{force_at_80_N} +- {force_at_80_N_sd}",
                    on_road ? "at reference conditions; +- is one standard deviation, here and beside"
                            : "rollers and vehicle, as tested; +- is one standard deviation, here and beside"});

@@ -60,6 +60,13 @@ struct Results {
     visit(ResultList{"sections", "Rolling resistance of one tire, by model and by ISO coefficient; of all tires",
                      "each cycle", "Liner of that tire; energy of the whole vehicle, at its hubs and its battery"},
           sections, total);
+    visit(Summary{
+        "The vehicle takes {consumption_Wh_per_km} out of the battery in {cycle}, for a range of {range_km}. Its tires "
+        "lose {sections.first.vehicle_rr_energy_Wh} over {sections.first.distance_km}."});
+    visit(
+        Summary{"The vehicle takes {consumption_Wh_per_km} out of the battery in {cycle}. Its tires lose "
+                "{sections.first.vehicle_rr_energy_Wh} over {sections.first.distance_km}."});
+    visit(Summary{"The vehicle takes {consumption_Wh_per_km} out of the battery in {cycle}."});
     visit(Headline{"Consumption", "{consumption_Wh_per_km}", "out of the battery, {cycle}"});
     visit(Headline{"Range", "{range_km}"});
     visit(Headline{"Model above the ISO coefficient", "{sections.first.difference_percent}",

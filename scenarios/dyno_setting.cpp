@@ -86,6 +86,11 @@ struct Results {
                  "the same by the tires' ISO coefficients, with the loss that their skim tests subtracted; null where "
                  "one has none"},
           highway_iso_J);
+    visit(Summary{within_criterion
+                      ? "The dynamometer is set: from 20 to 130 km/h the vehicle coasts down as on the road to within "
+                        "{largest_difference_N}."
+                      : "The dynamometer is not set: after {iterations} corrections, the force is up to "
+                        "{largest_difference_N} off that of the road."});
     visit(Headline{"Within the criterion", "{within_criterion}", "after {iterations} corrections"});
     visit(Headline{"Largest difference to the road", "{largest_difference_N}", "over 20 to 130 km/h"});
     visit(Headline{"Set force at standstill", "{set_A_N}", "road load: {target_A_N}"});

@@ -82,6 +82,11 @@ struct Results {
     visit(ResultList{"stretches", "Stretches of constant load and speed",
                      "means over the last minute of each stretch of constant load and speed"},
           stretches);
+    visit(
+        Summary{"At the end, rolling at {stretches.last.speed_km_h} under {stretches.last.load_N} takes "
+                "{stretches.last.force_N}. The liner was at most {liner_temperature_max_degC} warm."});
+    visit(Summary{
+        "The tire rolled {distance_km} in {duration_s}. Its liner was at most {liner_temperature_max_degC} warm."});
     visit(Headline{"Force of the last stretch", "{stretches.last.force_N}",
                    "at {stretches.last.load_N} and {stretches.last.speed_km_h}"});
     visit(Headline{"Highest liner temperature", "{liner_temperature_max_degC}"});

@@ -47,6 +47,9 @@ struct Results {
     visit(JointLine{"  lost by tires, by drag", "{rr_energy_Wh}, {drag_energy_Wh}"});
     visit(Result{"climb_energy_Wh", "  gone into height", ".0f", "of it, gone into height"}, climb_J);
     visit(Result{"liner_temperature_end_degC", "Liner at the end", ".1f", "mean of all tires at the end"}, liner_end_K);
+    visit(Summary{
+        "The wheels took {wheel_energy_Wh} over {distance_km}: the tires lost {rr_energy_Wh}, the drag of the air "
+        "{drag_energy_Wh}."});
     visit(Headline{"Energy at the wheels", "{wheel_energy_Wh}", "net, less what the brakes took"});
     visit(Headline{"Lost by the tires", "{rr_energy_Wh}"});
     visit(Headline{"Lost by drag", "{drag_energy_Wh}"});

@@ -47,6 +47,10 @@ struct Results {
     visit(Result{"slip_energy_Wh", "  by slip", ".1f", "of it, by slip"}, slip_J);
     visit(Result{"loss_force_end_N", "Loss force at the end", ".2f", "loss force of the last row"}, loss_force_end_N);
     tire.visit(visit);
+    visit(
+        Summary{"The tire lost {rr_energy_Wh} over {distance_km}; with slip and bearings, {loss_energy_Wh} were lost "
+                "between hub "
+                "and roller."});
     visit(Headline{"Lost by the tire", "{rr_energy_Wh}", "{loss_energy_Wh} with slip and bearings"});
     visit(Headline{"Loss force at the end", "{loss_force_end_N}"});
     visit(Headline{"Highest liner temperature", "{liner_temperature_max_degC}"});

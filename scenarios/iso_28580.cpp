@@ -120,6 +120,11 @@ struct Results {
   }
 
   void visit_headlines(ResultSheet& visit) const {
+    visit(Summary{fmt::format(
+        "The rolling resistance coefficient (RRc) is {{rrc_25degC_2m_N_per_kN}}{} at 25 degC on a 2 m drum{}. Rolling "
+        "resistance is {{rolling_resistance_N}} at {{load_N}} and {{speed_km_h}}.",
+        uncertainty.has_value() ? " +- {rrc_uncertainty_N_per_kN}" : "",
+        label_class.has_value() ? ", EU label class {label_class}" : "")});
     const char* label = "RRc at 25 degC, 2 m drum";
     if (uncertainty.has_value()) {
       visit(Headline{label, "{rrc_25degC_2m_N_per_kN} +- {rrc_uncertainty_N_per_kN}",
@@ -129,6 +134,11 @@ struct Results {
     }
     visit(Headline{"EU label class", "{label_class}",
                    "tire of class " + tire_class + (label_probability ? ", probability {label_probability}" : "")});
+    if (!label_class.has_value()) {
+      visit(Headline{"EU label class", "none",
+                     why_no_label.empty() ? "the file of the tire has no service description, which names its class"
+                                          : why_no_label});
+    }
     visit(Headline{"Rolling resistance", "{rolling_resistance_N}", "at {load_N} and {speed_km_h}"});
     visit(Headline{"Parasitic loss (skim)", "{parasitic_N}", "at the surface; subtracted from the loss under load"});
     visit(Headline{"Liner temperature", "{liner_temperature_degC}", "mean of the measurement"});
@@ -166,7 +176,7 @@ struct Results {
       if (label_probability.has_value()) visit(JointLine{"  its probability", "{label_probability}"});
     }
     visit(JointLine{"Stage of UN R117 that is met", "{approval_stage}"});
-    visit(Remark{"EU label class"}, why_no_label);
+    visit(Remark{"EU label class"}, why_no_label.empty() ? "" : "none: " + why_no_label);
   }
 };
 
@@ -276,7 +286,7 @@ void add_label(const Settings& settings, const RunSpec& spec, Results& results) 
       find_other_condition(settings, spec, models::find_iso_test(service, spec.tire.values.geometry.rim_diameter_m));
   if (!other.empty()) {
     results.why_no_label =
-        fmt::format("none: the {} is not that of the standard for class {}", other, name_of(service.tire_class));
+        fmt::format("the {} is not that of the standard for class {}", other, name_of(service.tire_class));
     return;
   }
   const double rrc = results.corrected_rrc;

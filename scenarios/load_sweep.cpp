@@ -37,9 +37,15 @@ struct Results {
     visit(Result{"rrc_span_N_per_kN", "RRc, largest less smallest", ".3f", "largest less smallest RRc"}, rrc_span);
     visit(Result{"steady_state_load_exponent", "", ".3f", "slope of ln F_r over ln load"}.or_left_out(), load_exponent);
     visit(JointLine{"F_r goes with load to the power", "{steady_state_load_exponent} (steady state)"});
+    visit(
+        Summary{"RRc is {cycles.first.rrc_N_per_kN} at {cycles.first.load_N} and {cycles.last.rrc_N_per_kN} at "
+                "{cycles.last.load_N}: rolling resistance goes with load to the power {steady_state_load_exponent}."});
+    visit(
+        Summary{"RRc is {cycles.first.rrc_N_per_kN} at {cycles.first.load_N} and {cycles.last.rrc_N_per_kN} at "
+                "{cycles.last.load_N}."});
     visit(Headline{"RRc at {cycles.first.load_N}", "{cycles.first.rrc_N_per_kN}", "first load"});
     visit(Headline{"RRc at {cycles.last.load_N}", "{cycles.last.rrc_N_per_kN}", "last load"});
-    visit(Headline{"Load exponent", "{steady_state_load_exponent}", "F_r goes with load to this power"});
+    visit(Headline{"Load exponent", "{steady_state_load_exponent}", "rolling resistance goes with load to this power"});
     visit(Headline{"RRc, largest less smallest", "{rrc_span_N_per_kN}"});
   }
 };

@@ -38,9 +38,17 @@ struct Results {
                  "F_r at the first pressure over that at the second, as in (4.1)"}
               .or_left_out(),
           first_to_second);
+    visit(Summary{
+        "RRc is {cycles.first.rrc_N_per_kN} at {cycles.first.pressure_set_kPa} and {cycles.last.rrc_N_per_kN} at "
+        "{cycles.last.pressure_set_kPa}: rolling resistance goes with pressure to the power "
+        "{steady_state_pressure_exponent}."});
+    visit(Summary{
+        "RRc is {cycles.first.rrc_N_per_kN} at {cycles.first.pressure_set_kPa} and {cycles.last.rrc_N_per_kN} at "
+        "{cycles.last.pressure_set_kPa}."});
     visit(Headline{"RRc at {cycles.first.pressure_set_kPa}", "{cycles.first.rrc_N_per_kN}", "first pressure"});
     visit(Headline{"RRc at {cycles.last.pressure_set_kPa}", "{cycles.last.rrc_N_per_kN}", "last pressure"});
-    visit(Headline{"Pressure exponent", "{steady_state_pressure_exponent}", "F_r goes with pressure to this power"});
+    visit(Headline{"Pressure exponent", "{steady_state_pressure_exponent}",
+                   "rolling resistance goes with pressure to this power"});
   }
 };
 

@@ -67,6 +67,11 @@ struct Results {
     visit(Result{"reference_rrc_N_per_kN", "", ".3f", "the same over load"}.or_left_out(),
           at_reference(condition.load_N));
     visit(JointLine{"  rolling resistance there", "{reference_rolling_resistance_N}, RRc {reference_rrc_N_per_kN}"});
+    visit(
+        Summary{"RRc is {reference_rrc_N_per_kN} at the reference condition ({reference_load_N}, "
+                "{reference_pressure_kPa}), where "
+                "rolling resistance is {reference_rolling_resistance_N}."});
+    visit(Summary{"RRc is {mean_rrc_N_per_kN}, the mean of the points."});
     visit(Headline{"RRc at the reference condition", "{reference_rrc_N_per_kN}",
                    "{reference_load_N}, {reference_pressure_kPa}"});
     visit(Headline{"Rolling resistance there", "{reference_rolling_resistance_N}"});

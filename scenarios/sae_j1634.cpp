@@ -87,6 +87,12 @@ struct Results {
                      "each section", "Liner of that tire; energy of the whole vehicle, at its hubs and its battery"},
           sections, total);
     economy.visit_cycles(visit);
+    visit(Summary{
+        "The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery ({economy.last.name}), for a "
+        "range of {economy.last.range_km}. The first, cold city cycle differs from later ones by "
+        "{first_city_excess_percent}."});
+    visit(
+        Summary{"The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery ({economy.last.name})."});
     visit(
         Headline{"Consumption", "{economy.last.dc_consumption_Wh_per_km}", "{economy.last.name}, out of the battery"});
     visit(Headline{"Range", "{economy.last.range_km}",

@@ -74,6 +74,12 @@ struct Results {
     visit(Result{"smerf_N", "  0.55 UDDS + 0.45 HWFET", ".2f", "standard mean equivalent rolling force (SMERF)"}
               .or_left_out(),
           of_reference([](const auto& r) { return r.combined.value_N; }));
+    visit(Summary{
+        "By the law of SAE J2452, RRc is {reference_rrc_N_per_kN} at the reference condition ({reference_load_N}, "
+        "{reference_pressure_kPa}, 80 km/h). The mean equivalent rolling force is {smerf_N}."});
+    visit(Summary{
+        "By the law of SAE J2452, rolling resistance goes with pressure to the power {pressure_exponent} and with load "
+        "to the power {load_exponent}."});
     visit(Headline{"RRc at the reference condition", "{reference_rrc_N_per_kN}",
                    "{reference_load_N}, {reference_pressure_kPa}, 80 km/h"});
     visit(Headline{"Mean equivalent rolling force", "{smerf_N}", "SMERF: 0.55 UDDS + 0.45 HWFET"});

@@ -24,6 +24,9 @@ struct Results {
     visit(Result{"tire_share_N", "  of it the tire (simulated)", ".3f", "what the tire still loses at skim load"},
           tire_share_N);
     visit(Result{"liner_temperature_degC", "Liner temperature", ".1f", "mean"}, skim.liner_temperature_K);
+    visit(Summary{
+        "The skim test reads a parasitic loss of {parasitic_N}: the rig alone loses {rig_alone_N}, the tire that still "
+        "touches the drum {tire_share_N}."});
     visit(Headline{"Parasitic loss as measured", "{parasitic_N}", "at {skim_load_N} and {speed_km_h}"});
     visit(Headline{"Of it the rig alone", "{rig_alone_N}", "which only a simulation knows"});
     visit(Headline{"Of it the tire", "{tire_share_N}", "its loss at the skim load"});

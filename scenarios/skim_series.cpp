@@ -55,6 +55,9 @@ struct Results {
     visit(Result{"rig_alone_N", "Rig alone (simulated)", ".3f",
                  "what the rig alone loses, which only a simulation knows"},
           rig_alone_N);
+    visit(Summary{
+        "The parasitic loss of the rig is {intercept_N} +- {intercept_sd_N}, by a straight line to load zero; the "
+        "simulated rig truly loses {rig_alone_N}."});
     visit(Headline{"Parasitic loss at zero load", "{intercept_N} +- {intercept_sd_N}",
                    "by the straight line; +- is one standard error"});
     visit(Headline{"True loss of the rig", "{rig_alone_N}",

@@ -38,6 +38,10 @@ struct Results {
                  "RRc at the last speed above that at the first"}
               .or_left_out(),
           rrc_rise);
+    visit(
+        Summary{"RRc is {cycles.first.rrc_N_per_kN} at {cycles.first.speed_km_h} and {cycles.last.rrc_N_per_kN} at "
+                "{cycles.last.speed_km_h}: {rrc_rise_percent}."});
+    visit(Summary{"RRc is {cycles.first.rrc_N_per_kN} at {cycles.first.speed_km_h}."});
     visit(Headline{"RRc at {cycles.first.speed_km_h}", "{cycles.first.rrc_N_per_kN}", "first speed"});
     visit(Headline{"RRc at {cycles.last.speed_km_h}", "{cycles.last.rrc_N_per_kN}", "last speed"});
     visit(Headline{"RRc from first to last speed", "{rrc_rise_percent}"});

@@ -44,8 +44,13 @@ struct Results {
     visit(Result{"parasitic_last_N", "Parasitic loss, last", ".3f", "last skim reading"}, parasitic_last_N);
     visit(Result{"uncertainty_N", "Uncertainty of F_r (k = 2)", ".3f", "expanded, of one F_r, offset canceled"},
           uncertainty_N);
+    visit(
+        Summary{"From the first skim test to the last, the parasitic loss falls by {parasitic_fall_N} and rolling "
+                "resistance by "
+                "{rolling_resistance_fall_N}. Warm, the parasitic loss is {parasitic_last_N}."});
     visit(Headline{"Parasitic loss falls by", "{parasitic_fall_N}", "from the first skim test to the last"});
-    visit(Headline{"F_r falls by", "{rolling_resistance_fall_N}", "likewise; expanded uncertainty {uncertainty_N}"});
+    visit(Headline{"Rolling resistance falls by", "{rolling_resistance_fall_N}",
+                   "likewise; expanded uncertainty {uncertainty_N}"});
     visit(Headline{"Parasitic loss, warm", "{parasitic_last_N}"});
   }
 };

@@ -78,9 +78,13 @@ struct Results {
     visit(Result{"band_drop_N", "", ".2f", "fall between the two temperatures"}, curve.band_drop_N);
     visit(Result{"band_drop_percent", "", ".2f", "the same, of the loss at the lower"}, curve.band_drop);
     visit(JointLine{"Fall from " + band, "{band_drop_percent} ({band_drop_N} of {band_low_N}), B = {band_B_per_degC}"});
-    visit(Headline{"RRc, warm", "{rrc_N_per_kN}", "F_r {rolling_resistance_N} at {load_N} and {speed_km_h}"});
+    visit(Summary{
+        "As the tire warms up, its rolling resistance falls from {start_rolling_resistance_N} to "
+        "{rolling_resistance_N}: a cold start takes {start_excess_percent} more. Warm, its coefficient (RRc) is "
+        "{rrc_N_per_kN} at {load_N} and {speed_km_h}."});
+    visit(Headline{"RRc, warm", "{rrc_N_per_kN}", "{rolling_resistance_N} at {load_N} and {speed_km_h}"});
     visit(Headline{"Cold start above warm", "{start_excess_percent}",
-                   "F_r falls from {start_rolling_resistance_N} to {rolling_resistance_N}"});
+                   "rolling resistance falls from {start_rolling_resistance_N} to {rolling_resistance_N}"});
     visit(Headline{"Fall per kelvin", "{band_B_per_degC}", "from " + band});
     visit(Headline{"Liner temperature, warm", "{liner_temperature_degC}", "after {warm_up_s} under load"});
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/algorithm/string/replace.hpp>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -72,6 +73,7 @@ void ResultSheet::add(const Result& result, const Json& value, const std::string
 }
 
 ResultSheet::Filled ResultSheet::fill(const std::string& text, bool with_last_unit) const {
+  static const std::set<std::string> kBeside{", ", " / ", " +- ", " to ", " and ", " of "};  // a unit serves both
   const auto key_at = [&text](std::size_t open) { return text.substr(open + 1, text.find('}', open) - open - 1); };
   Filled filled{text.substr(0, text.find('{')), {}, {}, {}};
   for (std::size_t open = text.find('{'); open != std::string::npos;) {
@@ -79,7 +81,8 @@ ResultSheet::Filled ResultSheet::fill(const std::string& text, bool with_last_un
     const Shown& shown = shown_.at(key);
     const std::size_t after = open + key.size() + 2;
     open = text.find('{', after);
-    const bool is_shared = open != std::string::npos && shown_.at(key_at(open)).unit == shown.unit;
+    const bool is_beside = open != std::string::npos && kBeside.count(text.substr(after, open - after)) > 0;
+    const bool is_shared = is_beside && shown_.at(key_at(open)).unit == shown.unit;
     const bool is_last = after == text.size() && !with_last_unit;
     filled.text +=
         (is_shared || is_last ? shown.text : join(shown.text, shown.unit)) + text.substr(after, open - after);
@@ -112,6 +115,12 @@ void ResultSheet::operator()(const Headline& headline) {
   headlines.push_back(std::move(shown));
 }
 
+void ResultSheet::operator()(const Summary& sentence) {
+  if (!summary.empty()) return;
+  const Filled filled = fill(sentence.text, true);
+  if (filled.is_whole) summary = filled.text;
+}
+
 void ResultSheet::add(const ResultList& list, const ResultSheet& declared, const std::vector<ResultSheet>& sheets,
                       std::size_t records) {
   infos.push_back({list.key, list.doc});
@@ -129,7 +138,8 @@ void ResultSheet::add(const ResultList& list, const ResultSheet& declared, const
 }
 
 void ResultSheet::declare_total(const ResultList& list, const ResultSheet& declared) {
-  infos.push_back({make_total_key(list), fmt::format("all of {} together; a number that has no sum is left out", list.key)});
+  infos.push_back(
+      {make_total_key(list), fmt::format("all of {} together; a number that has no sum is left out", list.key)});
   for (const ResultInfo& info : declared.infos) {
     infos.push_back({fmt::format("{}.{}", make_total_key(list), info.key), info.doc});
   }

@@ -31,8 +31,8 @@ struct ResultInfo {
 /// Which of the two tables of a list of records shows a column.
 enum class Column { kFirst, kSecond, kBoth };
 
-/// Declaration of one result. Its unit is read off the key's suffix; the value that goes with it is SI. A key with a dot
-/// is of an object in JSON: "tire_file.rrc_N_per_kN". Sweeps draw no such result unless asked for it.
+/// Declaration of one result. Its unit is read off the key's suffix; the value that goes with it is SI. A key with a
+/// dot is of an object in JSON: "tire_file.rrc_N_per_kN". Sweeps draw no such result unless asked for it.
 struct Result {
   const char* key;
   const char* label;   // before its value, or over its column, where the unit follows; "": in no line of its own
@@ -54,7 +54,7 @@ struct ResultList {
 };
 
 /// Results declared before it on one line, in place of a line each: "{load_N}, {speed_km_h}" reads "5400 N, 80.0 km/h".
-/// A unit stands after the last of those that share it. No line where one of them has no value.
+/// A unit stands after the last of those that share it side by side. No line where one of them has no value.
 struct JointLine {
   std::string label;
   std::string text;
@@ -67,6 +67,12 @@ struct Headline {
   std::string label;  // likewise with {keys}, as the note
   std::string text;
   std::string note = {};
+};
+
+/// What the run found, in one sentence of results declared before it, with their units: "RRc is {rrc_N_per_kN}." Of
+/// several, the first counts of which no value is missing.
+struct Summary {
+  std::string text;
 };
 
 /// A headline as a page shows it.
@@ -95,6 +101,7 @@ class ResultSheet {
   std::vector<Table> tables;      // of what was measured at several points
   std::vector<ResultInfo> infos;  // a record's result as "cycles[].load_N"
   std::vector<ShownHeadline> headlines;
+  std::string summary;  // empty where no sentence is declared or each lacks a value
   /// Keys whose value alone is a headline, in their order, with its label where that has no keys; also of results
   /// without a value.
   std::vector<std::pair<std::string, std::string>> headline_keys;
@@ -121,6 +128,7 @@ class ResultSheet {
   void operator()(const Remark& remark, const std::string& text);
   void operator()(const JointLine& line);
   void operator()(const Headline& headline);
+  void operator()(const Summary& sentence);
   template <class Record>
   void operator()(const ResultList& list, const std::vector<Record>& records) {
     add(list, of(Record{}), list_sheets(records), records.size());

@@ -30,6 +30,7 @@ struct PageKind {
   std::string command;
   std::string checks = {};  // options of check_page.mjs, which does without kinds that are made like others
   int status = 0;           // exit status of the command
+  bool has_picture = true;  // before any table
 };
 
 Json read_page(const std::string& file) {
@@ -104,24 +105,20 @@ void check_tiles(const Json& page, const Json& json) {
   }
 }
 
-/// Whether the numbers of a map are means of what the JSON or a recording has.
-bool is_of_means(const Json& map) {
-  return std::regex_search(map["caption"].get<std::string>(), std::regex("^(Mean of|Measured less simulated)"));
-}
-
-/// Cells of a table, of a map or of shares, or values of lines, each with its row.
+/// Cells of a table, of a map or of shares, values of lines, or sentences on top, each with its row.
 std::vector<std::pair<std::string, std::string>> list_cells(const Json& block) {
   std::vector<std::pair<std::string, std::string>> cells;
   for (const Json& row : block.value("rows", Json::array())) {
     for (const Json& cell : block["type"] == "table" ? row : Json::array()) {
       if (cell.is_string()) cells.emplace_back(row.dump(), cell);
     }
-    for (const Json& cell : block["type"] == "map" && !is_of_means(block) ? row["cells"] : Json::array()) {
+    for (const Json& cell : block["type"] == "map" ? row["cells"] : Json::array()) {
       if (cell.is_object()) cells.emplace_back(row.dump(), cell["text"]);
     }
     if (block["type"] == "shares") cells.emplace_back(row.dump(), row["text"]);
   }
   for (const Json& line : block.value("lines", Json::array())) cells.emplace_back(line.dump(), line["value"]);
+  if (block["type"] == "lead") cells.emplace_back("", block["text"]);
   for (auto& [row, cell] : cells) boost::algorithm::replace_all(cell, " - ", " -");  // a sign in an equation
   return cells;
 }
@@ -147,6 +144,24 @@ void check_tables(const Json& page, const Json& json) {
       }
     }
   }
+}
+
+/// The first screen says what the page says: a sentence, tiles, and a picture of it before any table.
+void check_first_screen(const Json& page, bool has_picture) {
+  static const std::set<std::string> kPictures{"curves", "bars", "waterfall", "forest", "map", "shares"};
+  const Json& blocks = page["sections"][0]["blocks"];
+  REQUIRE(blocks.size() > 1);
+  CHECK(blocks[0]["type"] == "lead");
+  CHECK(blocks[1]["type"] == "tiles");
+  const std::string text = blocks[0]["text"];
+  CHECK(text.back() == '.');
+  CHECK(text.size() < 400);
+  if (!has_picture) return;
+  const auto is_one_of = [&](const std::set<std::string>& types) {
+    return std::find_if(blocks.begin(), blocks.end(),
+                        [&types](const Json& block) { return types.count(block["type"].get<std::string>()) > 0; });
+  };
+  CHECK(is_one_of(kPictures) < is_one_of({"table", "lines"}));
 }
 
 /// Tiles with a number, but for counts of what the page lists, say where the JSON has it.
@@ -221,6 +236,7 @@ void check_kinds(const TemporaryFolder& folder, const std::vector<PageKind>& kin
     const Json json = Json::parse(read_file(folder.file(kind.name + ".json")));
     check_tiles(page, json.contains("diagnosis") ? json["diagnosis"] : json);  // of a loop: its last diagnosis
     check_sources(page);
+    check_first_screen(page, kind.has_picture);
     check_tables(page, json);
     check_names(page);
     if (!kind.checks.empty()) check_in_browser("check_page.mjs", fmt::format("'{}' {}", file, kind.checks));
@@ -272,7 +288,7 @@ TEST_CASE("every kind of page of a run and of several runs", "[weekly]") {
        {"tires", "sweep iso_28580 --fidelity quasi_static --vary tire=a40,a50,a60"},
        {"bars", "sweep iso_28580 --fidelity quasi_static --vary tire=a40,a50 --vary pressure_kPa=230:270:20",
         "--charts 3"},
-       {"single", "sweep iso_28580 --vary pressure_kPa=250" + kQuick},
+       {"single", "sweep iso_28580 --vary pressure_kPa=250" + kQuick, "", 0, false},
        {"regress", "regress runs", "--charts 1", 1},  // one of them has no golden
        {"sobol", "campaign sensitivity sobol_indices --result rrc_N_per_kN", "--charts 2"},
        {"morris", "campaign sensitivity morris --result rrc_N_per_kN"}});
@@ -329,7 +345,7 @@ TEST_CASE("pages of a run, a sweep, a comparison, a fit and a diagnosis", "[slow
   check_kinds(folder, {{"coastdown", "run coastdown --set pairs=2" + kQuick},
                        {"grid", "sweep iso_28580 --vary pressure_kPa=230:270:20 --vary ambient_degC=20:30:5" + kQuick},
                        {"numbers", "compare a40 a50"},
-                       {"single", "sweep iso_28580 --vary pressure_kPa=250" + kQuick},
+                       {"single", "sweep iso_28580 --vary pressure_kPa=250" + kQuick, "", 0, false},
                        {"j2452", "fit j2452 " + kExamples + "j2452_points.csv --maximum-load 6570 --base-pressure 240"},
                        {"diagnosis", "diagnose set --only bearing_warmup,torque_gain", "--charts 3"}});
 }

@@ -8,6 +8,7 @@
 #include "report/blocks.h"
 #include "report/list_pages.h"
 #include "report/run_page.h"
+#include "report/sensitivity_page.h"
 #include "report/sweep_values.h"
 #include "sim/core/text.h"
 
@@ -17,6 +18,7 @@ using scenarios::JointLine;
 using scenarios::Result;
 using scenarios::ResultList;
 using scenarios::ResultSheet;
+using scenarios::Summary;
 
 namespace {
 
@@ -36,6 +38,10 @@ struct Results {
     visit(ResultList{"cycles", "Cycles", "each"}, records);
     visit(Headline{"RRc", "{rrc_N_per_kN} +- {rrc_sd_N_per_kN}", "at {cycles.last.load_N}"});
     visit(Headline{"Load of the first", "{cycles.first.load_N}", "RRc {rrc_N_per_kN}"});
+    visit(
+        Summary{"RRc is {rrc_N_per_kN} +- {rrc_sd_N_per_kN}, from {cycles.first.load_N} to {cycles.last.load_N}; then "
+                "{cycles.last.load_N}."});
+    visit(Summary{"RRc is {rrc_N_per_kN}."});
   }
 };
 
@@ -50,6 +56,12 @@ TEST_CASE("headlines have value, unit and note, and where the JSON has them", "[
   CHECK(sheet.headlines[1].keys == std::vector<std::string>{"cycles/0/load_N"});
   CHECK(sheet.json["/cycles/0/load_N"_json_pointer] == 4000.0);
   CHECK(sheet.headlines[1].note == "RRc 5.200 N/kN");
+}
+
+TEST_CASE("the sentence of a run has units behind its numbers, and leaves out what has no value", "[fast]") {
+  // A unit serves two values side by side, but not those that words part.
+  CHECK(ResultSheet::of(Results{}).summary == "RRc is 5.200 +- 0.040 N/kN, from 4000 to 6000 N; then 6000 N.");
+  CHECK(ResultSheet::of(Results{std::nullopt, {}}).summary == "RRc is 5.200 N/kN.");
 }
 
 TEST_CASE("a headline without its value is left out, but its key is known", "[fast]") {
@@ -72,8 +84,12 @@ TEST_CASE("a sweep says its first result's range and its sensitivity", "[fast]")
   sweep["sensitivities"] = report::list_sensitivities(sweep, {"rrc_25degC_2m_N_per_kN"});
   const report::Page page = report::make_sweep_page(sweep, {}, "");
   const std::vector<report::Block>& blocks = page.sections.front().blocks;
-  REQUIRE(blocks.size() == 4);  // tiles, map, two charts: RRc as tested goes with the corrected one
-  const Json& tiles = blocks[0]["tiles"];
+  REQUIRE(blocks.size() == 5);  // sentence, tiles, map, two charts: RRc as tested goes with the corrected one
+  CHECK(
+      blocks[0]["text"] ==
+      "RRc at 25 °C, 2 m drum is lowest with pressure 270 kPa, ambient 30 °C, 4.7 N/kN, and highest with pressure 230 "
+      "kPa, ambient 20 °C, 5.3 N/kN: -1.00 % per 10 kPa of pressure and -0.80 % per K of ambient.");
+  const Json& tiles = blocks[1]["tiles"];
   CHECK(tiles[0]["label"] == "Lowest RRc at 25 °C, 2 m drum");
   CHECK(tiles[0]["value"] == "4.7");
   CHECK(tiles[0]["note"] == "pressure 270 kPa, ambient 30 °C");
@@ -83,8 +99,8 @@ TEST_CASE("a sweep says its first result's range and its sensitivity", "[fast]")
   for (const Json& tile : tiles) by_unit[tile["unit"]] = tile["value"];
   CHECK(by_unit["% per 10 kPa"] == "-1.00");  // 100 x 10 x 0.005 / 5
   CHECK(by_unit["% per K"] == "-0.80");       // 100 x 0.04 / 5
-  CHECK(blocks[1]["type"] == "map");
-  CHECK(blocks[2]["y"]["label"] == "RRc at 25 °C, 2 m drum");
+  CHECK(blocks[2]["type"] == "map");
+  CHECK(blocks[3]["y"]["label"] == "RRc at 25 °C, 2 m drum");
   for (const Json& column : page.sections.back().blocks.front()["columns"]) {
     CHECK(column["label"].get<std::string>().find('_') == std::string::npos);  // no raw key
   }
@@ -94,14 +110,14 @@ TEST_CASE("a sweep in which nothing changes has tiles, too", "[fast]") {
   const Json point = {{"set", {{"pressure_kPa", "250"}}},
                       {"result", {{"rrc_25degC_2m_N_per_kN", 5.2}, {"drum_torque_Nm", 47.0}}}};
   Json sweep = {{"scenario", "iso_28580"}, {"points", {point}}, {"sensitivities", Json::array()}};
-  const Json single = report::make_sweep_page(sweep, {}, "").sections.front().blocks.front()["tiles"];
+  const Json single = report::make_sweep_page(sweep, {}, "").sections.front().blocks[1]["tiles"];
   CHECK(single[0]["label"] == "RRc at 25 °C, 2 m drum");
   CHECK(single[0]["value"] == "5.2");
   CHECK(single[0]["note"] == "pressure 250 kPa");
   CHECK(single[0]["from"] == Json::array({"/points/0/result/rrc_25degC_2m_N_per_kN"}));
   sweep["points"].push_back(point);
   sweep["points"][1]["set"]["pressure_kPa"] = "260";
-  const Json equal = report::make_sweep_page(sweep, {"drum_torque_Nm"}, "").sections.front().blocks.front()["tiles"];
+  const Json equal = report::make_sweep_page(sweep, {"drum_torque_Nm"}, "").sections.front().blocks[1]["tiles"];
   REQUIRE(equal.size() == 1);
   CHECK(equal[0]["value"] == "47");
   CHECK(equal[0]["note"] == "the same in all 2 runs");
@@ -163,8 +179,64 @@ TEST_CASE("a sweep whose curve bends says the range of its slopes, and no single
   }
   sweep["sensitivities"] = report::list_sensitivities(sweep, {"rrc_25degC_2m_N_per_kN"});
   const report::Page page = report::make_sweep_page(sweep, {}, "");
-  const Json& tiles = page.sections.front().blocks[0]["tiles"];
+  const Json& tiles = page.sections.front().blocks[1]["tiles"];
   REQUIRE(tiles.size() == 3);
   CHECK(tiles[2]["value"] == "+0.00 to +1.95");  // 100 x 10 x 0.01 / 5.133
   CHECK(tiles[2]["unit"] == "% per 10 km/h");
+}
+
+TEST_CASE("a sweep of tires says which is lowest and in what the tests differ", "[fast]") {
+  Json sweep = {{"scenario", "iso_28580"}, {"points", Json::array()}, {"sensitivities", Json::array()}};
+  for (const auto& [tire, rrc, load_N] : {std::tuple("a40", 5.941, 5570.0), {"a50", 5.204, 6865.0}}) {
+    sweep["points"].push_back(
+        {{"set", {{"tire", tire}}}, {"result", {{"rrc_25degC_2m_N_per_kN", rrc}, {"load_N", load_N}}}});
+  }
+  const Json lead = report::make_sweep_page(sweep, {}, "").sections.front().blocks.front();
+  CHECK(lead["text"] ==
+        "RRc at 25 °C, 2 m drum is lowest with tire a50, 5.204 N/kN, and highest with tire a40, 5.941 N/kN.");
+  CHECK(lead["more"] == "The tests differ in their load: a40 5570 N, a50 6865 N.");
+}
+
+TEST_CASE("runs without a golden are no runs that differ, and have no bar", "[fast]") {
+  Json regression = {{"runs", Json::array()}};
+  const auto add = [&](const char* name, const char* status, int compared, double share) {
+    regression["runs"].push_back({{"name", name},
+                                  {"status", status},
+                                  {"compared", compared},
+                                  {"worst_share_of_tolerance", share},
+                                  {"worst", compared > 0 ? "motor_power_W at 1082 s" : ""},
+                                  {"problems", Json::array()}});
+  };
+  add("new_one", "no golden", 0, 0.0);
+  add("skim", "same", 410, 2e-5);
+  const std::vector<report::Block> blocks = report::make_regress_page(regression).sections.front().blocks;
+  CHECK(blocks[0]["text"] == "1 of 2 runs give the values of their goldens; no golden: 1.");
+  CHECK(blocks[1]["tiles"].size() == 2);
+  REQUIRE(blocks[2]["type"] == "bars");
+  CHECK(blocks[2]["categories"] == Json::array({"skim"}));
+  CHECK(blocks[2]["least_end"] == 1.0);  // the limit is on the axis: a share of 2e-5 is no tall bar
+}
+
+TEST_CASE("a sensitivity says which factor matters and how much, and its map is in the document", "[fast]") {
+  const auto index = [](double value) { return Json{{"value", value}, {"low_95", value}, {"high_95", value}}; };
+  Json sensitivity = {{"result", "rrc_N_per_kN"},
+                      {"mean", 5.2},
+                      {"sd", 0.19},
+                      {"factors",
+                       {{{"key", "ambient_degC"}, {"first", index(0.967)}, {"total", index(0.978)}},
+                        {{"key", "pressure_kPa"}, {"first", index(0.0044)}, {"total", index(0.0131)}}}}};
+  const std::vector<report::FactorScatter> scatters{
+      {"ambient_degC", {20.0, 20.0, 30.0, 30.0}, {5.4, 5.2, 5.0, 4.8}},
+      {"pressure_kPa", {240.0, 260.0, 240.0, 260.0}, {5.4, 5.2, 5.0, 4.8}}};
+  sensitivity["over_two_factors"] = report::make_factor_means(scatters);
+  CHECK(sensitivity["over_two_factors"]["means"] == Json::parse("[[5.4, 5.0], [5.2, 4.8]]"));
+  CHECK(sensitivity["over_two_factors"]["down"]["ranges"] == Json::array({"240", "260"}));
+  const Table table{"", {"factor", "alone", "with interactions"}, {{"ambient_degC", "", ""}, {"pressure_kPa", "", ""}}};
+  const report::Page page = report::make_sensitivity_page(sensitivity, table, "", scatters);
+  const std::vector<report::Block>& blocks = page.sections.front().blocks;
+  CHECK(blocks[0]["text"] ==
+        "RRc depends most on ambient: it makes 98 % of the variance; pressure 1.3 % (with interactions).");
+  REQUIRE(blocks[1]["tiles"].size() == 3);
+  CHECK(blocks[1]["tiles"][0]["value"] == "97.8 %");
+  CHECK(blocks[2]["type"] == "bars");
 }
