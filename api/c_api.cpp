@@ -12,6 +12,7 @@
 #include "sim/core/assets.h"
 #include "sim/core/error.h"
 #include "sim/core/parse_json.h"
+#include "sim/core/text.h"
 
 struct rollrig_wheel {
   rollrig::fmu::WarmWheel wheel;
@@ -108,15 +109,50 @@ ConfigTable read_named_or_text(const std::string& folder, const char* given) {
   return read_config(find_asset(folder, text));
 }
 
+/// As it stands after "key=".
 std::string to_setting(const std::string& key, const Json& value) {
   std::string text = value.is_string() ? value.get<std::string>() : value.dump();
   if (text.find('\0') == std::string::npos) return text;
   throw c_error("a text has a NUL character, at which names of files end", key, value.dump(), "text without one");
 }
 
+InputError wrong_member(const std::string& what, const std::string& key, const Json& value,
+                        const std::string& allowed) {
+  return c_error(what, key, shorten(value.dump(), 200), allowed);
+}
+
+/// An object in an object stands for names with a dot, as null for a setting that is not given.
+void add_settings(const Json& given, const std::string& prefix, std::vector<std::string>& settings) {
+  for (const auto& [name, value] : given.items()) {
+    const std::string key = prefix + name;
+    if (key == "effects" && !value.is_object() && !value.is_null()) {
+      throw wrong_member("'effects' must be an object", key, value, R"({"bearing_warmup": {}})");
+    }
+    if (value.is_object() && (!value.empty() || key == "effects")) {
+      add_settings(value, key + ".", settings);
+    } else if (!value.is_null()) {
+      settings.push_back(key + "=" + to_setting(key, value));
+    }
+  }
+}
+
+/// The JSON of a caller, which is in no file.
+Json parse_input(const std::string& text) {
+  const std::string example = R"({"scenario": "warm_up", "tire": "a50", "settings": {"speed_km_h": 120}})";
+  try {
+    Json json = parse_json(text, "input");
+    if (json.is_object()) return json;
+    throw wrong_member("the input of a run is JSON, but no object", "input", json, example);
+  } catch (const InputError& error) {
+    const InputProblem& problem = error.problem();
+    if (problem.file.empty()) throw;
+    const std::string place = problem.line > 0 ? fmt::format(" (line {} of the text)", problem.line) : "";
+    throw c_error(fmt::format("the input of a run cannot be read: {}{}", problem.what, place), "input", problem.value,
+                  example);
+  }
+}
+
 RunInput read_run_input(const std::string& text) {
-  const Json json = parse_json(text, "input of the run");
-  if (!json.is_object()) throw c_error("the input of a run is not a JSON object");
   RunInput input;
   const std::map<std::string, std::string*> members{
       {"scenario", &input.scenario_or_file}, {"tire", &input.tire},         {"rig", &input.rig},
@@ -124,15 +160,20 @@ RunInput read_run_input(const std::string& text) {
       {"sensors", &input.sensors},           {"seed", &input.seed}};
   std::vector<std::string> names{"settings"};
   for (const auto& member : members) names.push_back(member.first);
+  const Json json = parse_input(text);
   for (const auto& [key, value] : json.items()) {
     const auto member = members.find(key);
-    if (member != members.end()) {
+    if (member == members.end() && key != "settings") throw InputError(unknown_name("member of a run", key, names));
+    if (value.is_null()) continue;  // as if it were not there
+    if (key == "settings") {
+      if (!value.is_object()) {
+        throw wrong_member("'settings' must be an object", key, value, R"({"speed_km_h": 120})");
+      }
+      add_settings(value, "", input.settings);
+    } else if (value.is_string() || (key == "seed" && value.is_number())) {
       *member->second = to_setting(key, value);
-    } else if (key == "settings" && value.is_object()) {
-      for (const auto& [name, setting] : value.items())
-        input.settings.push_back(name + "=" + to_setting(name, setting));
     } else {
-      throw InputError(unknown_name("member of a run", key, names));
+      throw wrong_member(fmt::format("'{}' must be a text", key), key, value, "a text in quotes");
     }
   }
   return input;

@@ -102,7 +102,8 @@ typedef struct rollrig_run rollrig_run;
 
 /* input: JSON with "scenario", which may be a run file, and where wanted "tire", "rig", "vehicle", "fidelity",
    "baseline", "sensors", "seed" (texts), and "settings", an object: {"scenario": "warm_up", "tire": "a50",
-   "settings": {"speed_km_h": 120}}. */
+   "settings": {"speed_km_h": 120}}. An object in an object stands for names with a dot: {"effects": {"slow_leak": {}}}
+   switches an effect on. What is null is as if it were not there. */
 rollrig_run* rollrig_run_carry_out(const char* input);
 void rollrig_run_free(rollrig_run* run);
 /* result.json, as `rollrig run --json` writes it. */

@@ -1,6 +1,7 @@
 // The C API, and the examples that use it.
 #include "rollrig/c_api.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -138,6 +139,43 @@ TEST_CASE("the C API says what is wrong", "[fast]") {
   CHECK(rollrig_run_carry_out("{\"scenario\": \"warm_up\", \"tire\": 5}") == nullptr);
   CHECK(rollrig_run_carry_out("{\"scenario\": \"warm_up\", \"settings\": [1]}") == nullptr);
   CHECK(rollrig_run_json(nullptr) == nullptr);
+}
+
+TEST_CASE("the C API says what is wrong with the JSON of a run, which is in no file", "[fast]") {
+  const std::vector<std::array<const char*, 2>> cases{
+      {"{\"scenario\": \"warm_up\",\n \"tire\" \"a50\"}",
+       "the input of a run cannot be read: not JSON (line 2 of the text)"},
+      {"{\"scenario\": \"warm_up\", \"seed\": 1e999}", "a number that is too large"},
+      {"[1, 2]", "the input of a run is JSON, but no object"},
+      {"{\"scenario\": \"warm_up\", \"settings\": []}", "'settings' must be an object"},
+      {"{\"scenario\": \"warm_up\", \"settings\": \"speed_km_h=80\"}", "'settings' must be an object"},
+      {"{\"scenario\": \"warm_up\", \"tire\": {\"thermal\": {}}}", "'tire' must be a text"},
+      {"{\"scenario\": 5}", "'scenario' must be a text"},
+      {"{\"scenario\": \"warm_up\", \"tire\": \"a50\", \"settings\": {\"effects\": {\"slow_laek\": {}}}}", "slow_leak"},
+      {"{\"scenario\": \"warm_up\", \"tire\": \"a50\", \"settings\": {\"effects\": [\"slow_leak\"]}}",
+       "'effects' must be an object"}};
+  for (const auto& [input, said] : cases) {
+    INFO(input);
+    CHECK(rollrig_run_carry_out(input) == nullptr);
+    const std::string error = rollrig_last_error();
+    CHECK_THAT(error, Catch::Contains(said) && !Catch::Contains("member of a run") && !Catch::Contains("file as"));
+    CHECK_THAT(error, !Catch::Contains("where    input"));
+  }
+}
+
+TEST_CASE("objects in the settings of a run of the C API stand for names with a dot", "[fast]") {
+  const std::string run = R"({"scenario": "warm_up", "tire": "a50", "fidelity": "quasi_static", "rig": null, )";
+  const auto carry_out = [&run](const std::string& settings) {
+    const RunPointer done(rollrig_run_carry_out((run + R"("settings": {"warm_up_min": 5)" + settings + "}}").c_str()));
+    INFO(rollrig_last_error());
+    REQUIRE(done != nullptr);
+    return std::string(rollrig_run_json(done.get()));
+  };
+  const std::string nested =
+      carry_out(R"(, "effects": {"slow_leak": {}, "bearing_warmup": {"fall_per_K": 0.02}}, "ambient_degC": null)");
+  CHECK(nested == carry_out(R"(, "effects.slow_leak": {}, "effects.bearing_warmup.fall_per_K": 0.02)"));
+  CHECK(nested != carry_out(""));
+  CHECK(carry_out(R"(, "effects": {})") == carry_out(""));
 }
 
 TEST_CASE("each thread has the last error of its own calls", "[fast]") {
