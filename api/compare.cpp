@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "api/data.h"
+#include "api/option_range.h"
 #include "comparison/compare_results.h"
 #include "comparison/compare_sets.h"
 #include "comparison/compare_tires.h"
@@ -168,6 +169,7 @@ std::string make_comparison_text(const Comparison& comparison) {
 }  // namespace
 
 Comparison compare(const CompareInput& input, const Progress& progress) {
+  require_threads(input.threads);
   const ComparedKind kind = require_one_kind(input);
   require_each_once(input, kind);
   const auto compared = std::make_shared<const comparison::Compared>(compare_all(input, kind, progress));

@@ -8,6 +8,18 @@ bool is_bool(py::handle given) {
   return type == "numpy.bool_" || type == "numpy.bool";  // of NumPy 1 and 2
 }
 
+bool has_bool(py::handle given, int levels) {
+  const bool is_list = PySequence_Check(given.ptr()) != 0 && PyUnicode_Check(given.ptr()) == 0;
+  if (levels == 0 || !is_list || PySequence_Size(given.ptr()) < 0) {  // as of an array without dimensions
+    PyErr_Clear();
+    return false;
+  }
+  for (const py::handle each : given) {
+    if (is_bool(each) || has_bool(each, levels - 1)) return true;
+  }
+  return false;
+}
+
 void read_argument(py::handle given, const std::string& name, bool& flag) {
   if (!is_bool(given)) throw wrong_type(name, "True or False is expected", given);
   flag = py::bool_(py::reinterpret_borrow<py::object>(given));

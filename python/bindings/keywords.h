@@ -38,12 +38,15 @@ struct Expected<std::pair<std::array<double, 3>, std::array<double, 3>>> {
 
 /// A bool of Python or NumPy.
 bool is_bool(py::handle given);
+/// Whether there is one among the elements of a list or an array, or among theirs.
+bool has_bool(py::handle given, int levels = 2);
 
 /// Each throws TypeError for a value of another type, and InputError for a number that the member cannot hold. Both
 /// name the argument.
 template <class Member, std::enable_if_t<!std::is_integral_v<Member>, int> = 0>
 void read_argument(py::handle given, const std::string& name, Member& member) {
   try {
+    if (has_bool(given)) throw wrong_type(name, Expected<Member>::kText, given);
     member = given.cast<Member>();
   } catch (const py::cast_error&) {
     throw wrong_type(name, Expected<Member>::kText, given);

@@ -49,8 +49,10 @@ KINDS = {
     "Mapping[str, float]": ([*DICTS, {"load_N": "a"}, {5: 1.0}], []),
     "Mapping[str, Values]": ([*DICTS, {"pressure_kPa": 210}, {"pressure_kPa": [Unlike()]}, {5: [1]},
                               {"pressure_kPa": np.array(5)}, {"pressure_kPa": {210, 250}}], []),
-    "Abc": ([Unlike(), 5, "abc", [1, 2], ["a", "b", "c"], [1, 2, HUGE], np.array(5), {1, 2, 3}], []),
-    "tuple[Abc, Abc]": ([Unlike(), 5, (1, 2), ([1, 2], [3, 4]), np.array(5), (np.array(5), np.array(6))], []),
+    "Abc": ([Unlike(), 5, "abc", [1, 2], ["a", "b", "c"], [1, 2, HUGE], np.array(5), {1, 2, 3},
+             [True, 1, 2], np.array([True, False, True])], []),
+    "tuple[Abc, Abc]": ([Unlike(), 5, (1, 2), ([1, 2], [3, 4]), np.array(5), (np.array(5), np.array(6)),
+                         ([1, 2, 3], [4, 5, True])], []),
     "tuple[float, float]": ([Unlike(), 5, (1,), ("a", "b"), np.array(5), {1, 2}], []),
     "tuple[float, float, float]": ([Unlike(), 5, (1, 2), np.array(5), {1, 2, 3}], []),
     "Progress": ([Unlike(), "yes", 1], []),
@@ -176,6 +178,22 @@ class Arguments(InFolder):
                 call()
         with self.assertRaisesRegex(TypeError, "argument 'measured': unexpected key 'laod_N'"):
             rollrig.convert(force_N=32, measured={"laod_N": 4000}, wanted={})
+
+    def test_that_are_threads_have_a_range(self):
+        alignment = self.folder / "alignment"
+        rollrig.align(EXAMPLES / "alignment.csv", machine="drum_B", reference_machine="drum_A").write(alignment)
+        for call, (function, arguments) in self.list_calls().items():
+            if "threads" not in inspect.signature(function).parameters:
+                continue
+            if call == "apply_alignment":
+                arguments = {**arguments, "alignment": alignment / "alignment.json"}
+            if call == "align":
+                arguments = {**arguments, "machine": "drum_B", "reference_machine": "drum_A"}
+            for threads in (-1, 1025):
+                with self.subTest(call, threads=threads):
+                    with self.assertRaises(rollrig.InputError) as caught:
+                        function(**{**arguments, "threads": threads})
+                    self.assertEqual(caught.exception.key, "--threads")
 
     def test_that_name_no_folder_of_assets_are_refused(self):
         for call in (lambda: rollrig.assets("tyres"), lambda: rollrig.find_asset("tyres", "a50")):
