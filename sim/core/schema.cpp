@@ -103,7 +103,8 @@ std::vector<double> TableReader::numbers_or(const Field& field, const std::vecto
   if (value == nullptr) return fallback;
   const ConfigArray* array = value->as_array();
   if (array == nullptr || array->empty()) {
-    throw problem(field.key, fmt::format("'{}' must be a list of numbers, not {}", field.key, kind_of(*value)),
+    const char* kind = array == nullptr ? kind_of(*value) : "an empty one";
+    throw problem(field.key, fmt::format("'{}' must be a list of numbers, not {}", field.key, kind),
                   fmt::format("{} = [1.0, 2.0], each {}", field.key, allowed_number(field)));
   }
   std::vector<double> numbers;
