@@ -276,7 +276,10 @@ std::string find_other_condition(const Settings& settings, const RunSpec& spec, 
   if (differs(conditions.speed_m_s, asked.speed_m_s)) return "speed";
   if (!models::is_ambient_correction_valid(*conditions.ambient_K)) return "ambient temperature";
   if (conditions.soak_s < asked.soak_s * (1.0 - kSame)) return "soak";
-  return *settings.warm_up_s < asked.warm_up_s * (1.0 - kSame) ? "warm-up" : "";
+  if (*settings.warm_up_s < asked.warm_up_s * (1.0 - kSame)) return "warm-up";
+  // The last cycle is the measurement, and the tire has cooled down in the skim test before it.
+  const bool is_short = settings.measurement_cycles > 0 && settings.measurement_s < asked.warm_up_s * (1.0 - kSame);
+  return is_short ? "duration of the measurement cycles" : "";
 }
 
 void add_label(const Settings& settings, const RunSpec& spec, Results& results) {
@@ -324,10 +327,16 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   }
   if (spec.tire.iso_28580.has_value()) results.tire_file_rrc = spec.tire.iso_28580->rrc;
   constexpr double kTooShort = 0.02;  // Assumed: more than tires of class C1 lack after the standard's warm-up
-  if (std::abs(results.cycle.unsettled.value_or(0.0)) > kTooShort) {
-    outcome.warnings.push_back(fmt::format(
-        "RRc is {:.1f} % away from that in steady state: {} is too short for this tire",
-        1e2 * std::abs(*results.cycle.unsettled), settings.measurement_cycles > 0 ? "measurement_min" : "warm_up_min"));
+  const char* const duration = settings.measurement_cycles > 0 ? "measurement_min" : "warm_up_min";
+  if (results.cycle.is_settling_unknown) {
+    outcome.warnings.push_back(
+        fmt::format("the tire still becomes warmer or colder, too far from steady state to say how far RRc is from it: "
+                    "{} is too short for this tire",
+                    duration));
+  } else if (std::abs(results.cycle.unsettled.value_or(0.0)) > kTooShort) {
+    outcome.warnings.push_back(
+        fmt::format("RRc is {:.1f} % away from that in steady state: {} is too short for this tire",
+                    1e2 * std::abs(*results.cycle.unsettled), duration));
   }
   for (const std::string& doubt : spec.tire.list_class_doubts()) outcome.warnings.push_back(doubt);
   if (!models::is_ambient_correction_valid(ambient_K)) {

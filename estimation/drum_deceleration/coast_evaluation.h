@@ -27,6 +27,9 @@ PowerLaw fit_power_law(const std::vector<double>& pressures_Pa, const std::vecto
 /// Everything at one speed but the ratios.
 SpeedPoint evaluate_speed(const CoastSet& set, const Tables& tables, const DrumCoastdownFit& fit, std::size_t index);
 
+/// Index of the speed asked for that is nearest to the reference.
+std::size_t find_reference_speed(const CoastSet& set);
+
 /// Ratio of every level to the reference pressure and speed; a warning where there is no reference.
 void add_ratios(const CoastSet& set, const Tables& tables, DrumCoastdownFit& fit);
 

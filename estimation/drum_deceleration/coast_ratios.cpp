@@ -46,7 +46,8 @@ Interval calc_ratio(const Tables& tables, const PressureLevel& level, Eigen::Ind
   return {ratio, ratio * of_log.sd, of_log.freedom, std::exp(of_log.lower), std::exp(of_log.upper)};
 }
 
-/// Index of the speed asked for that is nearest to the reference.
+}  // namespace
+
 std::size_t find_reference_speed(const CoastSet& set) {
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < set.speeds_m_s.size(); ++i) {
@@ -56,15 +57,15 @@ std::size_t find_reference_speed(const CoastSet& set) {
   return nearest;
 }
 
-}  // namespace
-
 void add_ratios(const CoastSet& set, const Tables& tables, DrumCoastdownFit& fit) {
   const std::size_t reference_speed = find_reference_speed(set);
   fit.reference_pressure_Pa =
       set.reference_pressure_Pa.value_or(tables.levels.pressures_Pa[tables.levels.pressures_Pa.size() / 2]);
   const PressureLevel* reference = find_level(fit.points[reference_speed], fit.reference_pressure_Pa);
   if (reference == nullptr || reference->net_m_s2.value <= 0.0) {
-    fit.warnings.push_back("no ratios: at the reference speed no run has the reference pressure");
+    fit.warnings.push_back(
+        reference == nullptr ? "no ratios: at the reference speed no run has the reference pressure"
+                             : "no ratios: at the reference speed and pressure the rolling resistance is not above 0");
     return;
   }
   for (std::size_t i = 0; i < fit.points.size(); ++i) {

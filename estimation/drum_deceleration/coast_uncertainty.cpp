@@ -24,11 +24,14 @@ constexpr double kCoastMassRatioLimit = 0.05;
 constexpr double kCoastSpeedLimit_m_s = 0.1 / kKmhPerMs;
 constexpr double kCoastPressureLimit_Pa = 1e3;
 
+constexpr double kLeastShare = 0.01;  // of a net deceleration, that its logarithm is taken of at least
+
 /// What is known at the reference speed.
 struct CoastLevels {
   double speed_m_s = 0.0;
   std::vector<double> pressures_Pa;
   std::vector<double> loaded_m_s2;  // means
+  std::vector<double> net_m_s2;     // above 0 where there is an exponent
   std::vector<double> sd_of_means;  // of these, in units of the pooled scatter's standard deviation
   std::vector<std::string> names;   // "250 kPa", "250 kPa, 4000 N"
 };
@@ -98,11 +101,9 @@ CoastSet apply_inputs(const CoastSet& set, const CoastInputs& inputs, const std:
 }
 
 std::size_t find_reference_index(const CoastSet& set, const DrumCoastdownFit& fit) {
-  for (std::size_t i = 0; i < fit.points.size(); ++i) {
-    const bool is_reference = std::fabs(fit.points[i].speed_m_s - set.reference_speed_m_s) < 1e-6;
-    if (is_reference && !fit.points[i].levels.empty()) return i;
-  }
-  throw InputError({fmt::format("there is no result at the reference speed, {:.1f} km/h, to give an uncertainty for",
+  const std::size_t index = find_reference_speed(set);
+  if (!fit.points[index].levels.empty()) return index;
+  throw InputError({fmt::format("there is no result near the reference speed, {:.1f} km/h, to give an uncertainty for",
                                 kKmhPerMs * set.reference_speed_m_s),
                     set.path, 0, "reference_speed_km_h", "",
                     "one of speeds_km_h at which loaded and lifted runs have a result", ""});
@@ -118,6 +119,7 @@ CoastLevels list_levels(const SpeedPoint& point) {
   for (const PressureLevel& level : point.levels) {
     levels.pressures_Pa.push_back(level.pressure_Pa);
     levels.loaded_m_s2.push_back(level.loaded_m_s2);
+    levels.net_m_s2.push_back(level.net_m_s2.value);
     levels.sd_of_means.push_back(1.0 / std::sqrt(static_cast<double>(level.runs)));
     levels.names.push_back(fmt::format("{:.0f} kPa", 1e-3 * level.pressure_Pa) +
                            (has_loads ? fmt::format(", {:.0f} N", level.load_N) : ""));
@@ -135,8 +137,10 @@ MeasurementModel make_coast_model(const CoastSet& set, const DrumCoastdownFit& f
   const LoadedScatter scatter = calc_loaded_scatter(tables.loaded, tables.levels, speed);
   const CoastLevels levels = list_levels(point);
   const std::size_t count = levels.names.size();
-  // One law of pressure only where all levels have one load: a force at another load is another force.
-  const bool has_exponent = point.pressure_exponent.has_value() && point.level_scatter.has_value() &&
+  // One law of pressure only where all levels have one load: a force at another load is another force. Of two
+  // pressures, whose law has no rest, the scatter of the runs counts.
+  const bool has_rest = point.level_scatter.has_value();
+  const bool has_exponent = point.pressure_exponent.has_value() &&
                             keep_main_load(tables.levels).pressures_Pa.size() == tables.levels.pressures_Pa.size();
 
   CoastInputs inputs;
@@ -159,6 +163,8 @@ MeasurementModel make_coast_model(const CoastSet& set, const DrumCoastdownFit& f
     inputs.pressure = inputs.add(
         make_assumed_input("zero of the pressure gauge", "pressure_kPa", 0.0, kCoastPressureLimit_Pa, "1 kPa"));
     inputs.law = inputs.list.size();
+  }
+  if (has_exponent && has_rest) {
     for (UncertainInput& rest :
          make_scatter_inputs(count, static_cast<double>(count) - 2.0, "scatter of the pressures about the power law",
                              "standard deviation of the levels about the line")) {
@@ -180,7 +186,7 @@ MeasurementModel make_coast_model(const CoastSet& set, const DrumCoastdownFit& f
   if (!set.is_mass_ratio_known()) {
     model.left_out.emplace_back("bearing and air losses of the wheel: they stay in the force");
   }
-  model.evaluate = [set = apply_inputs(set, {}, {}), inputs, levels, has_exponent, has_force,
+  model.evaluate = [set = apply_inputs(set, {}, {}), inputs, levels, has_exponent, has_rest, has_force,
                     sd_m_s2 = std::sqrt(scatter.single_run.variance),
                     law_sd = point.level_scatter.value_or(0.0)](const std::vector<double>& x) {
     const CoastSet trial = apply_inputs(set, inputs, x);
@@ -199,13 +205,16 @@ MeasurementModel make_coast_model(const CoastSet& set, const DrumCoastdownFit& f
       results.push_back(has_force ? *trial.calc_drum_mass_kg() * net_m_s2 : net_m_s2);
     }
     if (!has_exponent) return results;
-    const std::vector<double> rests = take_scatter(x, inputs.law, size);
     std::vector<double> pressures_Pa, net_m_s2;
     for (std::size_t i = 0; i < size; ++i) {
       pressures_Pa.push_back(levels.pressures_Pa[i] + x[inputs.pressure]);
-      const double mean_m_s2 = calc_net(levels.loaded_m_s2[i]);
-      if (!(mean_m_s2 > 0.0)) throw RunFailure("a net deceleration is not above 0: it has no power law");
-      net_m_s2.push_back(mean_m_s2 * std::exp(law_sd * rests[i]));
+      const double run_error_m_s2 = has_rest ? 0.0 : sd_m_s2 * levels.sd_of_means[i] * errors[i];
+      // A rare trial without a loss: its exponent is far off, and the forces of it count.
+      net_m_s2.push_back(std::max(calc_net(levels.loaded_m_s2[i] + run_error_m_s2), kLeastShare * levels.net_m_s2[i]));
+    }
+    if (has_rest) {
+      const std::vector<double> rests = take_scatter(x, inputs.law, size);
+      for (std::size_t i = 0; i < size; ++i) net_m_s2[i] *= std::exp(law_sd * rests[i]);
     }
     results.push_back(fit_power_law(pressures_Pa, net_m_s2).slope);
     return results;

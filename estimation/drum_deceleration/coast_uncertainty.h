@@ -6,8 +6,8 @@
 
 namespace rollrig::estimation {
 
-/// At the reference speed: the rolling resistance at each pressure and load (the net deceleration where the inertia of
-/// the drum is not known), and the exponent of pressure of the runs at one load.
+/// At the speed asked for that is nearest to the reference speed: the rolling resistance at each pressure and load (the
+/// net deceleration where the inertia of the drum is not known), and the exponent of pressure of the runs at one load.
 /// Equation  as models::calc_net_deceleration, times I_D/R^2, with
 ///           a = (1 + g) (a_m + s e_i/sqrt(n)), a_D0 and a_T0 likewise with errors of their own; exponent: slope of
 ///           ln(F) over ln(p + d), with the levels' scatter about it
@@ -15,9 +15,10 @@ namespace rollrig::estimation {
 ///           of standard deviation 1; g relative error of the deceleration from that of the speed [1]; d error of the
 ///           pressure [Pa]; others as in calc_net_deceleration
 /// Validity  errors of instruments and scatter from run to run. The scatter within a run stands in where no pressure
-///           was run twice. The law's lack of fit counts in the exponent alone
+///           was run twice. The law's lack of fit counts in the exponent alone; of two pressures, which have none, the
+///           scatter of the runs
 /// Source    accuracies of instruments are assumed, as those of ISO 28580 (scenarios/common/iso_uncertainty.h)
-/// Errors    InputError: no result at the reference speed
+/// Errors    InputError: no result at that speed
 /// Checked   tests/estimation/coast_uncertainty_test.cpp
 MeasurementModel make_coast_model(const CoastSet& set, const DrumCoastdownFit& fit);
 

@@ -149,6 +149,53 @@ void warn_of_method(const CoastSet& set, const Tables& tables, DrumCoastdownFit&
   }
 }
 
+/// Throws InputError where forces or inertias are those of no tire on a drum, unless a run is in doubt, which may be
+/// why. Doubts those that are unusual.
+void doubt_units(const CoastSet& set, DrumCoastdownFit& fit) {
+  constexpr double kMostMassRatio = 0.5;       // Assumed: wheels have 0.01 to 0.1 of the drum's mass at the surface
+  constexpr double kLeast = 1.5e-3;            // Assumed: of the load; the best tires have 4 N/kN, of bicycles 2
+  constexpr double kMost = 40e-3;              // Assumed: of a cold tire at low pressure
+  constexpr double kMostForce_N = 500.0;       // Assumed: a truck tire has 250 N at most
+  constexpr double kLeastPressure_Pa = 100e3;  // Assumed: of a road tire
+  const auto refuse = [&](const std::string& what, const char* key, const std::string& allowed) {
+    if (fit.doubts.empty()) throw InputError({what, set.path, 0, key, "", allowed, ""});
+    fit.warnings.push_back(what);
+  };
+  if (fit.mass_ratio > kMostMassRatio) {
+    refuse(
+        fmt::format("tire and wheel would have {:.3g} times the mass of the drum, both at the surface: are inertias, "
+                    "diameter and radius in kg m2 and m?",
+                    fit.mass_ratio),
+        "[drum], [wheel]", "a drum that is much heavier than the wheel");
+  }
+  double highest_Pa = 0.0;
+  for (const PressureLevel& level : fit.points[find_reference_speed(set)].levels) {
+    highest_Pa = std::max(highest_Pa, level.pressure_Pa);
+    if (!level.force_N.has_value()) continue;
+    const double force_N = level.force_N->value;
+    const bool is_known = level.load_N > 0.0;
+    const bool is_of_tire = !is_known || (force_N > kLeast * level.load_N && force_N < kMost * level.load_N);
+    if (force_N <= 0.0 || !is_of_tire) {
+      refuse(
+          fmt::format("the rolling resistance is that of no tire: {:.3g} N{} at {:.0f} kPa. Are inertias, diameter "
+                      "and load in kg m2, m and N?",
+                      force_N, is_known ? fmt::format(", {:.3g} N/kN of the load,", 1e3 * force_N / level.load_N) : "",
+                      1e-3 * level.pressure_Pa),
+          is_known ? "load_N" : "[drum] inertia_kg_m2",
+          fmt::format("{:g} to {:g} N/kN of the load", 1e3 * kLeast, 1e3 * kMost));
+    } else if (force_N > kMostForce_N) {
+      fit.warnings.push_back(
+          fmt::format("the rolling resistance at {:.0f} kPa is {:.4g} N, more than that of a truck "
+                      "tire: are the units of inertia and diameter right?",
+                      1e-3 * level.pressure_Pa, force_N));
+    }
+  }
+  if (highest_Pa > 0.0 && highest_Pa < kLeastPressure_Pa) {
+    fit.warnings.push_back(fmt::format(
+        "the highest pressure is {:.0f} kPa, which is low for a road tire: is it in psi?", 1e-3 * highest_Pa));
+  }
+}
+
 /// Why no speed gives a result: what is doubted, and what the fits of single runs say.
 std::string explain_no_speed(const CoastSet& set, const DrumCoastdownFit& fit) {
   std::string text = "at none of the speeds asked for do loaded and lifted runs both pass";
@@ -221,6 +268,7 @@ DrumCoastdownFit fit_drum_coastdown(const CoastSet& set) {
   const CoastDoubts checked = check_coasts(set, fit.analyses);
   fit.doubts.insert(fit.doubts.end(), checked.doubts.begin(), checked.doubts.end());
   evaluate_runs(set, fit);
+  doubt_units(set, fit);
   if (!checked.set_aside.empty()) fit.others = evaluate_others(set, fit, checked.set_aside);
   warn_of_failed_fits(set, fit);
   warn_of_method(set, make_tables(set, fit), fit);

@@ -48,6 +48,10 @@ std::vector<std::string> list_procedure_left_out(const RoadLoadProcedure& proced
       "the state of the vehicle: tires, brakes, bearings, alignment",
       "K0, by which the rolling loss falls with the temperature of the air",
       procedure.rotating_mass_assumed ? "the rotating mass, for which 3 % of the mass are taken" : "the rotating mass"};
+  if (procedure.kind == RoadLoadProcedureKind::kWltp) {
+    left_out.push_back(
+        "the bias of the procedure, from times over bins of speed: up to 0.1 % of the force, in f1 some 3 % of it");
+  }
   const TestedRoadLoad& tested = procedure.tested;
   if (!tested.correction.ambient_K.has_value()) left_out.push_back("air temperature: it was not measured");
   if (tested.correction.ambient_K.has_value() && !tested.correction.ambient_pressure_Pa.has_value()) {

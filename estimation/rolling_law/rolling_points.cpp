@@ -159,6 +159,15 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
                     "force in lbf and not in N?",
                     1e3 * coefficient));
   }
+  constexpr double kLeastArea_m2 = 0.0065;  // Assumed: load over pressure; car tires at full load have 0.02
+  double area_m2 = 0.0;
+  for (const RollingPoint& point : points) area_m2 = std::max(area_m2, point.load_N / point.pressure_Pa);
+  if (area_m2 < kLeastArea_m2) {
+    doubts.push_back(
+        fmt::format("the largest load over its pressure is {:.0f} cm2, a contact patch of a tire of a car has some 200: "
+                    "is the load in lbf or kg and not in N?",
+                    1e4 * area_m2));
+  }
   const std::size_t copies = count_copies(points);
   if (static_cast<double>(copies) > kMostCopies * static_cast<double>(points.size())) {
     doubts.push_back(

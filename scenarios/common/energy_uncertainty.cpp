@@ -124,7 +124,7 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
     }
     model.left_out.push_back(
         "usable battery energy and energy of the recharge: they are taken from the vehicle file without an "
-        "uncertainty");
+        "uncertainty. In a test that measures the usable energy with the same meter, its gain cancels in the ranges");
   }
   model.left_out.push_back("the setting of the dynamometer, the efficiency of the powertrain, how the driver follows");
   model.evaluate = [&spec, numbers, cycles](const std::vector<double>& x) {

@@ -21,9 +21,10 @@ double calc_force_method_N(const Reading& reading, const RunSpec& spec) {
   return reading.spindle_force_N * models::calc_rolling_ratio(loaded_radius_m, spec.rig.curvature_per_m());
 }
 
-/// How far the loss under load is from steady state at the end of a range. Empty where it is too short to tell.
-std::optional<double> read_unsettled(const sim::Recording<double>& recording, const RunSpec& spec,
-                                     const LoadRange& range, const Window& end, double parasitic_N) {
+/// Loss and temperature under load from the start of a range to its end. Empty where it is too short.
+std::optional<std::array<SettlingPoint, 3>> read_settling(const sim::Recording<double>& recording, const RunSpec& spec,
+                                                          const LoadRange& range, const Window& end,
+                                                          double parasitic_N) {
   constexpr double kFast_s = 180.0;  // Assumed: load, gas, and tread against carcass have settled
   const double window_s = end.end_s - end.start_s;
   const double start_s = range.start_s + kFast_s;
@@ -35,7 +36,7 @@ std::optional<double> read_unsettled(const sim::Recording<double>& recording, co
     return SettlingPoint{force / spec.rig.lever_m() - parasitic_N,
                          calc_mean(recording, spec, window, quantities::kLinerTemperature)};
   };
-  return estimate_unsettled({point(start_s), point(start_s + step_s), point(end.start_s)});
+  return {{point(start_s), point(start_s + step_s), point(end.start_s)}};
 }
 
 }  // namespace
@@ -77,14 +78,25 @@ std::optional<double> estimate_unsettled(const std::array<SettlingPoint, 3>& poi
   const auto& [start, middle, end] = points;
   const double first_K = middle.liner_temperature_K - start.liner_temperature_K;
   const double second_K = end.liner_temperature_K - middle.liner_temperature_K;
-  if (std::abs(second_K) >= std::abs(first_K)) return std::nullopt;
   const double decay = second_K / first_K;
+  if (!(std::abs(decay) <= kSlowestDecay)) return std::nullopt;
   const double left = decay * decay / (1.0 - decay * decay);
   const double steady_N = end.loss_N + (end.loss_N - start.loss_N) * left;
   return end.loss_N / steady_N - 1.0;
 }
 
+bool is_settling_unknown(const std::array<SettlingPoint, 3>& points) {
+  constexpr double kStill_K = 0.3;  // Assumed: more than the noise of a mean
+  const double last_K = points[2].liner_temperature_K - points[1].liner_temperature_K;
+  return !estimate_unsettled(points).has_value() && std::abs(last_K) > kStill_K;
+}
+
 std::optional<std::string> warn_of_unsettled(const std::vector<SteadyCycle>& cycles) {
+  const auto is_unknown = [](const SteadyCycle& steady) { return steady.cycle.is_settling_unknown; };
+  if (std::any_of(cycles.begin(), cycles.end(), is_unknown)) {
+    return "the tire still becomes warmer or colder, too far from steady state to say how far RRc is from it: "
+           "settle_min is too short";
+  }
   double most = 0.0;
   for (const SteadyCycle& steady : cycles) most = std::max(most, std::abs(steady.cycle.unsettled.value_or(0.0)));
   if (most <= kSettled) return std::nullopt;
@@ -112,7 +124,10 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
   for (std::size_t i = 0; i + 1 < ranges.size(); ++i) {
     if (ranges[i].loaded && !ranges[i + 1].loaded) {
       Cycle cycle = evaluate_cycle(read(ranges[i]), read(ranges[i + 1]), spec);
-      cycle.unsettled = read_unsettled(recording, spec, ranges[i], cycle.loaded.window, cycle.parasitic_N);
+      if (const auto points = read_settling(recording, spec, ranges[i], cycle.loaded.window, cycle.parasitic_N)) {
+        cycle.unsettled = estimate_unsettled(*points);
+        cycle.is_settling_unknown = is_settling_unknown(*points);
+      }
       cycles.push_back(cycle);
     }
   }

@@ -40,6 +40,7 @@ struct Cycle {
   double rrc = 0.0;                   // N/N
   double force_method_N = 0.0;        // F_r from the spindle force
   std::optional<double> unsettled;    // how far F_r is above that in steady state, see estimate_unsettled
+  bool is_settling_unknown = false;   // see is_settling_unknown()
 
   void visit(ResultSheet& visit) const {
     visit(Result{"start_s", "start", ".0f", "start of the window that is averaged under load", Column::kSecond},
@@ -54,8 +55,10 @@ struct Cycle {
           loaded.drum_torque_Nm);
     visit(Result{"skim_torque_Nm", "skim", ".2f", "mean motor torque in skim", Column::kSecond}.or_left_out(),
           skim.drum_torque_Nm);
-    visit(Result{"parasitic_N", "skim", ".2f", "F_pl; by torque: skim torque over drum radius, of a belt the force"}, parasitic_N);
-    visit(Result{"rolling_resistance_N", "F_r", ".2f", "F_r = F_t - F_pl; by torque: F_t = T_t/R"}, rolling_resistance_N);
+    visit(Result{"parasitic_N", "skim", ".2f", "F_pl; by torque: skim torque over drum radius, of a belt the force"},
+          parasitic_N);
+    visit(Result{"rolling_resistance_N", "F_r", ".2f", "F_r = F_t - F_pl; by torque: F_t = T_t/R"},
+          rolling_resistance_N);
     visit(Result{"rrc_N_per_kN", "RRc", ".3f", "F_r over load"}, rrc);
     visit(Result{"force_method_N", "F_r by force", ".2f", "F_r from the spindle force", Column::kSecond},
           force_method_N);
@@ -86,7 +89,7 @@ struct SteadyCycle {
   }
 };
 
-/// A warning where cycles are further from steady state than kSettled.
+/// A warning where cycles are further from steady state than kSettled, or it cannot be told how far they are.
 std::optional<std::string> warn_of_unsettled(const std::vector<SteadyCycle>& cycles);
 constexpr double kSettled = 0.002;  // Assumed: well below the uncertainty of RRc
 
@@ -101,10 +104,15 @@ struct SettlingPoint {
 /// Equation  F_3 / F_steady - 1, F_steady = F_3 + (F_3 - F_1) q^2 / (1 - q^2), q = (T_3 - T_2) / (T_2 - T_1)
 /// Symbols   F loss, T liner temperature, at three times in equal distances; q decay from one time to the next. It is
 ///           read off T, because the noise of a torque sensor would hide it
-/// Validity  settling of the first order, in which loss and temperature decay alike; |q| < 1. After ten minutes,
-///           it is up to 1.7 times too large of a tire with two nodes, and as much with the noise of sensors
+/// Validity  settling of the first order, in which loss and temperature decay alike; |q| up to kSlowestDecay. After ten
+///           minutes, it is up to 1.7 times too large of a tire with two nodes, and as much with the noise of sensors
 /// Source    Aitken's extrapolation, exact for an exponential decay
 std::optional<double> estimate_unsettled(const std::array<SettlingPoint, 3>& points);
+/// Assumed: beyond it, F_3 - F_1 would be extrapolated by more than 2.6 times itself, as of a truck tire in ten
+/// minutes.
+constexpr double kSlowestDecay = 0.85;
+/// Whether the temperature still changes, and there is no such estimate.
+bool is_settling_unknown(const std::array<SettlingPoint, 3>& points);
 
 /// Title of the second table of a list of cycles.
 constexpr const char* kCycleWindows = "Windows that were averaged, torque in skim, and F_r by the force method";

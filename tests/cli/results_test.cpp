@@ -33,7 +33,7 @@ std::string settings_of(const std::string& scenario) {
   if (scenario == "follow_roller") return "--tire a50 " + rows + "follow_roller_a50.csv'";
   if (scenario == "follow_road") return "--tire a50 " + rows + "follow_road_a50.csv'";
   if (scenario == "follow_drum") return "--tire a50 " + drum + rows + "follow_drum_a50.csv'";
-  if (scenario == "iso_28580") return drum + "--tire c1_205_55r16 --set measurement_cycles=2";  // has a label
+  if (scenario == "iso_28580") return drum + "--tire c1_205_55r16 --set measurement_cycles=2 --set measurement_min=30";  // has a label
   return "--tire a50 " + drum;
 }
 

@@ -2,6 +2,7 @@
 // equation says, and what is not known adds no line.
 #include "estimation/drum_deceleration/coast_uncertainty.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -24,6 +25,13 @@ std::vector<double> move_input(const MeasurementModel& model, const std::string&
   std::vector<double> x;
   for (const UncertainInput& input : model.inputs) x.push_back(input.value * (input.name == name ? factor : 1.0));
   return x;
+}
+
+double calc_usual(const MeasurementModel& model) { return model.evaluate(move_input(model, "", 1.0)).front(); }
+
+bool warns_of(const DrumCoastdownFit& fit, const std::string& words) {
+  return std::any_of(fit.warnings.begin(), fit.warnings.end(),
+                     [&words](const std::string& warning) { return warning.find(words) != std::string::npos; });
 }
 
 const SpeedPoint& find_reference(const CoastSet& set, const DrumCoastdownFit& fit) {
@@ -81,11 +89,54 @@ TEST_CASE("without an inertia, a coast-down has uncertainties of decelerations",
         Approx(find_reference(set, fit).levels.front().net_m_s2.value).epsilon(1e-9));
 }
 
-TEST_CASE("an uncertainty of a coast-down asks for a result at the reference speed", "[fast]") {
+TEST_CASE("the uncertainty of a coast-down is that at the speed nearest to the reference, which must have a result",
+          "[fast]") {
   CoastSet set = read_example();
-  const DrumCoastdownFit fit = fit_drum_coastdown(set);
-  set.reference_speed_m_s += 1.0;
+  DrumCoastdownFit fit = fit_drum_coastdown(set);
+  const double usual_N = calc_usual(make_coast_model(set, fit));
+  set.reference_speed_m_s += 0.5;
+  CHECK(calc_usual(make_coast_model(set, fit)) == usual_N);
+  for (SpeedPoint& point : fit.points) point.levels.clear();
   CHECK_THROWS_AS(make_coast_model(set, fit), InputError);
+}
+
+TEST_CASE("of two pressures, the scatter of the runs is that of the exponent", "[fast]") {
+  CoastSet set = read_example();
+  const double first_Pa = find_reference(set, fit_drum_coastdown(set)).levels.front().pressure_Pa;
+  const auto is_first = [&](const CoastRun& run) {
+    return run.state == CoastState::kLoaded && is_same_pressure(run.pressure_Pa, first_Pa);
+  };
+  set.runs.erase(std::remove_if(set.runs.begin(), set.runs.end(), is_first), set.runs.end());
+  const DrumCoastdownFit fit = fit_drum_coastdown(set);
+  const SpeedPoint& point = find_reference(set, fit);
+  REQUIRE(point.levels.size() == 2);
+  const Json budget = make_uncertainty_json(calc_uncertainty(make_coast_model(set, fit), {}, {}))["budgets"].back();
+  CHECK(budget["value"].get<double>() == Approx(point.pressure_exponent->value).epsilon(1e-9));
+  CHECK(budget["combined_standard_uncertainty"].get<double>() == Approx(point.pressure_exponent->sd).epsilon(0.05));
+}
+
+TEST_CASE("coast-downs in other units than the set says are refused or doubted", "[fast]") {
+  const CoastSet good = read_example();
+  CHECK(!warns_of(fit_drum_coastdown(good), "units"));
+  CoastSet tonnes = good;
+  tonnes.drum_inertia_kg_m2 = 1e-3 * *good.drum_inertia_kg_m2;
+  CHECK_THROWS_AS(fit_drum_coastdown(tonnes), InputError);
+  CoastSet feet = good;
+  feet.drum_diameter_m = good.drum_diameter_m / 0.0254;
+  CHECK_THROWS_AS(fit_drum_coastdown(feet), InputError);
+  CoastSet pounds = good;
+  pounds.drum_inertia_kg_m2 = 23.73 * *good.drum_inertia_kg_m2;  // lb ft2
+  for (CoastRun& run : pounds.runs) run.load_N = run.state == CoastState::kLoaded ? 4000.0 : 0.0;
+  CHECK_THROWS_AS(fit_drum_coastdown(pounds), InputError);
+  for (CoastRun& run : pounds.runs) run.load_N = 0.0;
+  CHECK(warns_of(fit_drum_coastdown(pounds), "units"));
+  CoastSet kilograms = good;
+  for (CoastRun& run : kilograms.runs) run.load_N = run.state == CoastState::kLoaded ? 490.0 : 0.0;
+  CHECK_THROWS_AS(fit_drum_coastdown(kilograms), InputError);
+  CoastSet psi = good;
+  for (CoastRun& run : psi.runs) run.pressure_Pa /= 6.895;
+  psi.reference_pressure_Pa.reset();
+  CHECK(warns_of(fit_drum_coastdown(psi), "psi"));
 }
 
 TEST_CASE("Monte Carlo of a coast-down agrees with its budget where the scatter is well known", "[fast]") {

@@ -211,6 +211,16 @@ TEST_CASE("forces in lbf of a tire with a high coefficient are doubted aloud", "
   CHECK_THAT(estimation::doubt_points(points)[0], Catch::Contains("lbf"));
 }
 
+TEST_CASE("loads and forces that are both in lbf are doubted aloud", "[fast]") {
+  std::vector<RollingPoint> points = make_points();
+  for (RollingPoint& point : points) {
+    point.load_N /= 4.448;
+    point.force_N /= 4.448;
+  }
+  REQUIRE(estimation::doubt_points(points).size() == 1);
+  CHECK_THAT(estimation::doubt_points(points)[0], Catch::Contains("lbf or kg"));
+}
+
 TEST_CASE("points that were copied are doubted aloud, a few that agree by chance are not", "[fast]") {
   std::vector<RollingPoint> points = make_points();
   points.push_back(points.front());

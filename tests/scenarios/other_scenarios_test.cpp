@@ -144,6 +144,27 @@ TEST_CASE("what is left of an exponential decay is estimated exactly", "[fast]")
   CHECK_FALSE(scenarios::estimate_unsettled({{{30.0, 310.0}, {30.0, 310.0}, {30.0, 310.0}}}).has_value());
 }
 
+TEST_CASE("a truck tire in cycles of ten minutes is too far from steady state to say how far", "[fast]") {
+  // Decay by less than a seventh, as of a time constant of 40 min over steps of 4 min.
+  const auto slow = [](double time_s) {
+    const double decay = std::exp(-time_s / 2400.0);
+    return scenarios::SettlingPoint{150.0 + 40.0 * decay, 360.0 - 30.0 * decay};
+  };
+  const std::array<scenarios::SettlingPoint, 3> points{slow(0.0), slow(240.0), slow(480.0)};
+  CHECK_FALSE(scenarios::estimate_unsettled(points).has_value());
+  CHECK(scenarios::is_settling_unknown(points));
+  CHECK_FALSE(scenarios::is_settling_unknown({{{30.0, 310.0}, {30.0, 310.05}, {30.0, 310.1}}}));  // noise
+  for (const char* method : {"torque", "deceleration"}) {
+    scenarios::RunSpec spec = make_spec("iso_28580", "c3_315_80r22_5",
+                                        {"measurement_cycles=3", std::string("method=") + method}, "quasi_static");
+    const auto outcome = scenarios::run_scenario(spec, {});
+    INFO(method);
+    REQUIRE(!outcome.warnings.empty());
+    CHECK_THAT(outcome.warnings.front(), Catch::Contains("too far from steady state") && !Catch::Contains("%"));
+    CHECK(!outcome.result.contains("label_class"));
+  }
+}
+
 TEST_CASE("a load sweep takes the loads of the tire's own table", "[fast]") {
   CHECK(run("load_sweep", "a40").result["cycles"].size() == 4);
   const auto outcome = run("load_sweep", "a50");
