@@ -159,7 +159,7 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
                     "force in lbf and not in N?",
                     1e3 * coefficient));
   }
-  constexpr double kLeastArea_m2 = 0.0065;  // Assumed: load over pressure; car tires at full load have 0.02
+  constexpr double kLeastArea_m2 = 0.0075;  // Assumed: load over pressure; car tires at full load have 0.02
   double area_m2 = 0.0;
   for (const RollingPoint& point : points) area_m2 = std::max(area_m2, point.load_N / point.pressure_Pa);
   if (area_m2 < kLeastArea_m2) {
