@@ -253,11 +253,9 @@ Report ItemCampaign::calc_sensitivity(const std::string& result) const {
   for (const std::size_t f : found.order) {
     constexpr std::size_t kMostCharts = 6;  // Assumed: the factors that matter
     if (scatters.size() == kMostCharts) break;
-    report::FactorScatter scatter{design.factors[f].key, {}, column};
-    for (const std::vector<std::string>& of_item : table.values) {
-      if (const auto number = parse_number(of_item[f])) scatter.values.push_back(*number);
-    }
-    if (scatter.values.size() == column.size()) scatters.push_back(scatter);
+    std::vector<std::string> of_items;
+    for (const std::vector<std::string>& of_item : table.values) of_items.push_back(of_item[f]);
+    scatters.push_back(report::make_factor_scatter(design.factors[f].key, of_items, column));
   }
   found.json["over_two_factors"] = report::make_factor_means(scatters);
   Report report;

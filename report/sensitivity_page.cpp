@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <set>
 
 #include "comparison/compared.h"
 #include "report/blocks.h"
@@ -49,12 +50,38 @@ Block make_index_bars(const Json& sensitivity) {
 
 constexpr std::size_t kMostPoints = 1000;  // Assumed: more hide each other
 
+/// The mean result of each word, with the least and the largest.
+Block make_word_chart(const std::string& result, const FactorScatter& scatter) {
+  std::vector<std::vector<double>> of_words(scatter.words.size());
+  for (std::size_t i = 0; i < scatter.values.size(); ++i) {
+    if (std::isfinite(scatter.results[i])) {
+      of_words[static_cast<std::size_t>(scatter.values[i])].push_back(scatter.results[i]);
+    }
+  }
+  Json names = Json::array(), means = Json::array(), low = Json::array(), high = Json::array();
+  for (std::size_t word = 0; word < of_words.size(); ++word) {
+    const std::vector<double>& results = of_words[word];
+    if (results.empty()) continue;
+    names.push_back(scatter.words[word]);
+    means.push_back(
+        rounded(std::accumulate(results.begin(), results.end(), 0.0) / static_cast<double>(results.size())));
+    low.push_back(rounded(*std::min_element(results.begin(), results.end())));
+    high.push_back(rounded(*std::max_element(results.begin(), results.end())));
+  }
+  return make_bars(
+      {fmt::format("{} by {}", capitalized(comparison::label_result(result)), plain_name(last_part(scatter.key))),
+       shown_unit(result)},
+      names, Json::array({{{"name", "mean"}, {"values", means}, {"low", low}, {"high", high}}}),
+      "Whiskers: the least and the largest of the items.");
+}
+
 Block make_factor_chart(const std::string& result, const FactorScatter& scatter) {
   ChartSeries points;
   for (std::size_t i = 0; i < std::min(scatter.values.size(), kMostPoints); ++i) {
     if (std::isfinite(scatter.results[i])) points.add(scatter.values[i], scatter.results[i]);
   }
   const std::string key = last_part(scatter.key);
+  if (!scatter.words.empty()) return make_word_chart(result, scatter);
   return make_curves({plain_name(key), shown_unit(key)}, {comparison::label_result(result), shown_unit(result)},
                      Json::array({points.finish("items")}));
 }
@@ -67,8 +94,13 @@ struct Ranges {
   std::vector<std::size_t> of_items;
 };
 
-/// Each value by itself where there are few, else ranges that hold equally many items.
-Ranges make_ranges(const std::vector<double>& values) {
+/// Each value by itself where there are few, and each word, else ranges that hold equally many items.
+Ranges make_ranges(const std::vector<double>& values, const std::vector<std::string>& words) {
+  if (!words.empty()) {
+    Ranges ranges{words, {}};
+    for (const double value : values) ranges.of_items.push_back(static_cast<std::size_t>(value));
+    return ranges;
+  }
   std::vector<double> sorted = values;
   std::sort(sorted.begin(), sorted.end());
   std::vector<double> distinct;
@@ -207,6 +239,22 @@ Block make_sensitivity_tiles(const Json& sensitivity) {
 
 }  // namespace
 
+FactorScatter make_factor_scatter(const std::string& key, const std::vector<std::string>& values,
+                                  const std::vector<double>& results) {
+  FactorScatter scatter{key, {}, results};
+  for (const std::string& value : values) {
+    if (const auto number = parse_number(value)) scatter.values.push_back(*number);
+  }
+  if (scatter.values.size() == values.size()) return scatter;
+  const std::set<std::string> words(values.begin(), values.end());
+  scatter.words.assign(words.begin(), words.end());
+  scatter.values.clear();
+  for (const std::string& value : values) {
+    scatter.values.push_back(static_cast<double>(std::distance(words.begin(), words.find(value))));
+  }
+  return scatter;
+}
+
 Json make_factor_means(const std::vector<FactorScatter>& scatters) {
   if (scatters.size() < 2) return nullptr;
   const FactorScatter& across = scatters[0];
@@ -221,8 +269,8 @@ Json make_factor_means(const std::vector<FactorScatter>& scatters) {
     results.push_back(across.results[i]);
   }
   if (results.empty()) return nullptr;
-  const Ranges columns = make_ranges(x_values);
-  const Ranges rows = make_ranges(y_values);
+  const Ranges columns = make_ranges(x_values, across.words);
+  const Ranges rows = make_ranges(y_values, down.words);
   std::vector<std::vector<double>> sums(rows.names.size(), std::vector<double>(columns.names.size(), 0.0));
   std::vector<std::vector<std::size_t>> counts(rows.names.size(), std::vector<std::size_t>(columns.names.size(), 0));
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -266,7 +314,7 @@ Page make_sensitivity_page(const Json& sensitivity, const Table& of_terminal, co
   const std::size_t items = scatters.empty() ? 0 : scatters.front().values.size();
   Section over{"Result over the factors",
                items > kMostPoints ? fmt::format("The first {} of {} items, a point each.", kMostPoints, items)
-                                   : "Each point is one item of the campaign."};
+                                   : "Each point is one item of the campaign; of names, bars show the mean."};
   for (const FactorScatter& scatter : scatters) over.blocks.push_back(make_factor_chart(result, scatter));
   page.add(std::move(over));
   const Json means = sensitivity.value("over_two_factors", Json());

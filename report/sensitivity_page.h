@@ -12,9 +12,14 @@ namespace rollrig::report {
 /// The values that a factor took in the items of a campaign, and the result of each.
 struct FactorScatter {
   std::string key;
-  std::vector<double> values;   // in the unit of the key
+  std::vector<double> values;   // in the unit of the key; of words, such as names of tires, the place in `words`
   std::vector<double> results;  // as long
+  std::vector<std::string> words = {};  // empty where the values are numbers
 };
+
+/// From the values as settings take them.
+FactorScatter make_factor_scatter(const std::string& key, const std::vector<std::string>& values,
+                                  const std::vector<double>& results);
 
 /// The mean result over the first two factors, each in a few ranges: the map of the page, for the document. Null where
 /// there are fewer factors.

@@ -318,6 +318,14 @@ TEST_CASE("which factor a result depends on", "[slow]") {
   run_to_end("campaign run few", at);
   run_to_end("campaign sensitivity few --result rrc_N_per_kN --html few.html", at);
   CHECK_THAT(read_file(at.file("few.html")), Catch::Contains("\"columns\":[\"20\",\"30\"]"));
+  run_to_end(std::string("campaign new tires iso_28580 --fidelity quasi_static --vary tire=a40,a50,a60 ") +
+                 "--draw ambient_degC=uniform:20:30 --design sobol_indices --points 16",
+             at);
+  run_to_end("campaign run tires", at);
+  run_to_end("campaign sensitivity tires --result rrc_N_per_kN --html tires.html --json tires.json", at);
+  CHECK_THAT(read_file(at.file("tires.html")), Catch::Contains("RRc by tire"));
+  const Json tires = Json::parse(read_file(at.file("tires.json")));
+  CHECK(tires["over_two_factors"]["across"]["ranges"] == Json({"a40", "a50", "a60"}));
   const ProgramResult unknown = run_program("campaign sensitivity c --result rrc_N_per_k", at.path());
   CHECK(unknown.status == 2);
   CHECK_THAT(flatten(unknown.err), Catch::Contains("rrc_N_per_kN"));
