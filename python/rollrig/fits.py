@@ -9,8 +9,8 @@ from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
 from .sets import MeasurementSet, as_set
-from .settings import (PathLike, input_error, make_uncertainty_options, take_given, to_flag, to_list, to_path,
-                       to_skip, to_word)
+from .settings import (PathLike, input_error, make_uncertainty_options, take_given, to_flag, to_list, to_optional_path,
+                       to_path, to_skip, to_word)
 from .values import Estimate
 
 Abc = Sequence[float]
@@ -187,7 +187,7 @@ def fit_drum_coastdown(set: PathLike, *, data: PathLike | None = None, skip_bad_
     * data: folder of its CSV files; None: that of the set.
     :members UncertaintyOptions
     """
-    logs = to_path("" if data is None else data, "data")
+    logs = to_optional_path(data, "data")
     with progress_display(progress) as show:
         return Report(_rollrig.fit_drum_coastdown(show, to_path(set, "set"), logs, to_skip(skip_bad_rows),
                                                   make_uncertainty_options(uncertainty, monte_carlo, seed, threads)))

@@ -10,7 +10,7 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import PathLike, take_given, to_flag, to_load_index, to_optional_path, to_path
+from .settings import PathLike, take_given, to_flag, to_load_index, to_path
 
 
 def new_tire(size: str, *, name: str | None = None, load_index: str | int | None = None, tire_class: str | None = None,
@@ -35,7 +35,7 @@ def new_tire(size: str, *, name: str | None = None, load_index: str | int | None
              "rrc_N_per_kN": rrc_N_per_kN, "tir": tir,
              "rrc_sd_N_per_kN": rrc_sd_N_per_kN, "pressure_kPa": pressure_kPa, "speed_symbol": speed_symbol}
     with progress_display(progress) as show:
-        of_log = {"folder": to_optional_path(warm_up, "warm_up"), **log}
+        of_log = {"folder": None if warm_up is None else to_path(warm_up, "warm_up"), **log}
         return Report(_rollrig.make_new_tire(show, take_given(given, "size"), take_given(of_log)))
 
 
@@ -91,5 +91,5 @@ def new_set(folder: PathLike, *, beside: PathLike | None = None, tire: Name = No
              "columns": columns, "units": units, "values": values, "date_order": date_order,
              "cold_pressure_kPa": cold_pressure_kPa, "rests_min": rests_min}
     logs = os.fsdecode(to_path(folder, "folder"))
-    of_file = beside if beside is not None else logs if os.path.isdir(logs) else os.path.dirname(logs)
+    of_file = beside if beside is not None else logs if os.path.isdir(logs) else os.path.dirname(logs) or os.curdir
     return Report(_rollrig.guess_set(take_given(given, "folder"), to_path(of_file, "beside")))

@@ -8,8 +8,8 @@ from . import _rollrig
 from .notebook import Progress, progress_display
 from .report import Report
 from .runs import Name
-from .settings import (PathLike, make_uncertainty_options, take_given, to_flag, to_load_index, to_names, to_path,
-                       to_paths, to_plain, to_skip)
+from .settings import (PathLike, make_uncertainty_options, take_given, to_flag, to_load_index, to_names,
+                       to_optional_path, to_path, to_paths, to_plain, to_skip)
 
 
 def compare(compared: Sequence[PathLike], *, scenario: str | None = None, threads: int = 0,
@@ -140,4 +140,4 @@ def regress(folder: PathLike | None = None, *, threads: int = 0, progress: Progr
     * folder: with run files and their goldens; None: that of the assets.
     """
     with progress_display(progress) as show:
-        return Report(_rollrig.regress(show, to_path("" if folder is None else folder, "folder"), threads))
+        return Report(_rollrig.regress(show, to_optional_path(folder, "folder"), threads))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from . import _rollrig
 from .report import Report
 from .runs import Name
-from .settings import PathLike, take_given, to_flag, to_path, to_skip
+from .settings import PathLike, take_given, to_flag, to_optional_path, to_path, to_skip
 
 if TYPE_CHECKING:
     from .arrays import Channel
@@ -119,7 +119,7 @@ def import_logs(mapping: PathLike, *, data: PathLike | None = None, skip_bad_row
     * mapping: file that tells of the logs (import.toml).
     * data: folder of the logs; None: that of the mapping.
     """
-    return Report(_rollrig.import_logs(to_path(mapping, "mapping"), to_path("" if data is None else data, "data"),
+    return Report(_rollrig.import_logs(to_path(mapping, "mapping"), to_optional_path(data, "data"),
                                        to_skip(skip_bad_rows)))
 
 

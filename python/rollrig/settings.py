@@ -50,6 +50,8 @@ def to_path(value: Any, argument: str) -> bytes:
     except TypeError:
         raise wrong_type(argument, "a text or a path is expected", value) from None
     encoded = to_bytes(given, argument)
+    if not encoded:
+        raise input_error(f"argument '{argument}' is empty", argument, show(value), "a name or a path")
     if b"\0" in encoded:
         raise input_error(f"argument '{argument}' has a NUL character", argument, show(value), "text without one")
     return encoded
@@ -65,8 +67,9 @@ def to_bytes(text: str | bytes, argument: str) -> bytes:
         raise input_error(what, argument, show(text), "text in Unicode") from None
 
 
-def to_optional_path(value: Any, argument: str) -> bytes | None:
-    return None if value is None else to_path(value, argument)
+def to_optional_path(value: Any, argument: str) -> bytes:
+    """Empty for None, which stands for what the library does without one."""
+    return b"" if value is None else to_path(value, argument)
 
 
 def to_elements(values: Any, argument: str, expected: str) -> list[Any]:

@@ -27,6 +27,7 @@ class Unlike:
 PATHS = [Unlike(), 5, 1.5, ["a"], {"a": 1}, datetime.date(2026, 3, 2), np.array("a"), {"a"}]
 TEXTS = [*PATHS, pathlib.Path("a")]
 BAD_TEXTS = ["a\0b", b"a\0b", "a\ud800"]
+BAD_PATHS = [*BAD_TEXTS, "", b""]
 NUMBERS = [Unlike(), "1.5", [1.5], True, np.True_, 1j]
 BAD_NUMBERS = [HUGE]
 FLAGS = [Unlike(), "no", 5, 1, 0, 1.0, None, [True], np.array([True, False])]
@@ -40,11 +41,11 @@ KINDS = {
     "float": (NUMBERS, BAD_NUMBERS),
     "str": (TEXTS, BAD_TEXTS),
     "str | int": ([Unlike(), 1.5, ["a"], True], BAD_TEXTS),
-    "PathLike": (PATHS, BAD_TEXTS),
-    "Name": (PATHS, BAD_TEXTS),
-    "MeasurementSet | PathLike": (PATHS, BAD_TEXTS),
+    "PathLike": (PATHS, BAD_PATHS),
+    "Name": (PATHS, BAD_PATHS),
+    "MeasurementSet | PathLike": (PATHS, BAD_PATHS),
     "Sequence[str]": (LISTS, []),
-    "Sequence[PathLike]": ([*LISTS, "a"], []),
+    "Sequence[PathLike]": ([*LISTS, "a"], [[""]]),
     "Mapping[str, str]": ([*DICTS, {"a": 5}, {5: "a"}], []),
     "Mapping[str, float]": ([*DICTS, {"load_N": "a"}, {5: 1.0}], []),
     "Mapping[str, Values]": ([*DICTS, {"pressure_kPa": 210}, {"pressure_kPa": [Unlike()]}, {5: [1]},
