@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <boost/algorithm/string/trim.hpp>
 #include <functional>
 #include <memory>
 #include <string>
@@ -87,6 +88,11 @@ inline void add_threads(CLI::App& command, int& threads,
 /// shared, and is empty where it cannot; otherwise, a task of a job array is warned, unless `quiet`: other tasks may do
 /// the same.
 void require_one_process(const std::string& command, const std::string& instead = "", bool quiet = false);
+
+/// Spaces about the names of a list with commas: "a, b".
+inline CLI::Option* split_names(CLI::Option* option) {
+  return option->delimiter(',')->transform([](const std::string& name) { return boost::algorithm::trim_copy(name); });
+}
 
 /// --uncertainty, --monte-carlo, --threads and, where the command has no seed of another meaning, --seed.
 inline void add_uncertainty_options(CLI::App& command, UncertaintyOptions& options, bool with_seed = false) {

@@ -241,11 +241,10 @@ void add_new_campaign(CLI::App& campaign, Action& action) {
   command->add_option("--draw", input.drawn, "key=uniform:LOW:HIGH or key=normal:MEAN:SD; may be repeated")
       ->expected(1)
       ->take_all();
-  command
-      ->add_option("--draw-sd", input.drawn_sd,
-                   "tire, rig, vehicle, with commas: every number of that file beside its standard uncertainty, as a "
-                   "normal distribution")
-      ->delimiter(',')
+  split_names(
+      command->add_option("--draw-sd", input.drawn_sd,
+                          "tire, rig, vehicle, with commas: every number of that file beside its standard uncertainty, "
+                          "as a normal distribution"))
       ->allow_extra_args(false);
   command->get_option("--seed")->description("Seed of the draws; those of the items' sensors follow from it [1]");
   command->add_option("--design", input.design,

@@ -120,9 +120,11 @@ void add_export_fmu(CLI::App& parent, Action& action) {
   command->add_option("--tire", options->input.tire, "Tire under assets/tires, or a path")->required();
   command->add_option("--rig", options->input.rig, "What it rolls on: rig under assets/rigs, or a path")
       ->capture_default_str();
-  command->add_option("--effects", options->input.effects, "Effects that are on; their sizes are parameters")
-      ->delimiter(',');
-  command->add_option("--fmi", options->input.fmi_version, "Version of FMI, 2 or 3")->capture_default_str();
+  split_names(
+      command->add_option("--effects", options->input.effects, "Effects that are on; their sizes are parameters"));
+  command->add_option("--fmi", options->input.fmi_version, "Version of FMI, 2 or 3")
+      ->capture_default_str()
+      ->transform([](const std::string& version) { return version.substr(0, version.find(".0")); });
   add_output_option(*command, "--out", options->out, "File for the FMU, - for standard output")->required();
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }

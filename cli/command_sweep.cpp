@@ -78,10 +78,8 @@ void add_sweep_command(CLI::App& app, Action& action) {
       ->required()
       ->expected(1)
       ->take_all();
-  command
-      ->add_option("--show", options->sweep.shown,
-                   "Results in the terminal's table, with commas [the first that change]")
-      ->delimiter(',');
+  split_names(command->add_option("--show", options->sweep.shown,
+                                  "Results in the terminal's table, with commas [the first that change]"));
   add_threads(*command, options->sweep.threads);
   options->output.add_to(*command, "File for the results, - for standard output",
                          "Folder for sweep.csv, sweep.json, manifests.json");

@@ -9,8 +9,8 @@ CLI::Option* add_smallest_effect(CLI::App& command, double& percent) {
 }
 
 void ComparisonOptions::add_to(CLI::App& command) {
-  command.add_option("--without", without, "Effects left out of the comparison: a,b")->delimiter(',');
-  command.add_option("--only", only, "The only effects in the comparison: a,b")->delimiter(',');
+  split_names(command.add_option("--without", without, "Effects left out of the comparison: a,b"));
+  split_names(command.add_option("--only", only, "The only effects in the comparison: a,b"));
 }
 
 void ComparisonOptions::check() const { require_comparable_effects(only, without); }

@@ -215,7 +215,7 @@ TEST_CASE("the header of a list may have spaces, and --draw-sd takes one word", 
   const TemporaryFolder at;
   write_file(at.file("list.csv"), "ambient_degC, pressure_kPa\n25,250\n20,240\n");
   run_to_end(std::string("campaign new c ") + kRun + " --list list.csv", at);
-  run_to_end("campaign new --draw-sd tire d iso_28580 --tire a50 --fidelity quasi_static --points 3", at);
+  run_to_end("campaign new --draw-sd 'tire, rig' d iso_28580 --tire a50 --fidelity quasi_static --points 3", at);
 }
 
 TEST_CASE("a program is told how far a campaign is, also where nothing is left to do", "[fast]") {
