@@ -29,7 +29,7 @@ std::vector<double> move_input(const MeasurementModel& model, const std::string&
 
 double calc_usual(const MeasurementModel& model) { return model.evaluate(move_input(model, "", 1.0)).front(); }
 
-bool warns_of(const DrumCoastdownFit& fit, const std::string& words) {
+bool doubts_units_of(const DrumCoastdownFit& fit, const std::string& words) {
   return std::any_of(fit.warnings.begin(), fit.warnings.end(),
                      [&words](const std::string& warning) { return warning.find(words) != std::string::npos; });
 }
@@ -117,7 +117,7 @@ TEST_CASE("of two pressures, the scatter of the runs is that of the exponent", "
 
 TEST_CASE("coast-downs in other units than the set says are refused or doubted", "[fast]") {
   const CoastSet good = read_example();
-  CHECK(!warns_of(fit_drum_coastdown(good), "units"));
+  CHECK(!doubts_units_of(fit_drum_coastdown(good), "units"));
   CoastSet tonnes = good;
   tonnes.drum_inertia_kg_m2 = 1e-3 * *good.drum_inertia_kg_m2;
   CHECK_THROWS_AS(fit_drum_coastdown(tonnes), InputError);
@@ -129,14 +129,14 @@ TEST_CASE("coast-downs in other units than the set says are refused or doubted",
   for (CoastRun& run : pounds.runs) run.load_N = run.state == CoastState::kLoaded ? 4000.0 : 0.0;
   CHECK_THROWS_AS(fit_drum_coastdown(pounds), InputError);
   for (CoastRun& run : pounds.runs) run.load_N = 0.0;
-  CHECK(warns_of(fit_drum_coastdown(pounds), "units"));
+  CHECK(doubts_units_of(fit_drum_coastdown(pounds), "units"));
   CoastSet kilograms = good;
   for (CoastRun& run : kilograms.runs) run.load_N = run.state == CoastState::kLoaded ? 490.0 : 0.0;
   CHECK_THROWS_AS(fit_drum_coastdown(kilograms), InputError);
   CoastSet psi = good;
   for (CoastRun& run : psi.runs) run.pressure_Pa /= 6.895;
   psi.reference_pressure_Pa.reset();
-  CHECK(warns_of(fit_drum_coastdown(psi), "psi"));
+  CHECK(doubts_units_of(fit_drum_coastdown(psi), "psi"));
 }
 
 TEST_CASE("Monte Carlo of a coast-down agrees with its budget where the scatter is well known", "[fast]") {

@@ -74,9 +74,10 @@ TEST_CASE("processes share the sets: each is answered by one", "[fast]") {
   const ValidationSetFolder made;
   validation::RunOrder order = make_run_order(made);
   order.part = {1, 2};
-  CHECK(validation::run_cases(order).made == 2);
+  const std::size_t first = order.part.count_of(3);
+  CHECK(validation::run_cases(order).made == first);
   order.part = {2, 2};
-  CHECK(validation::run_cases(order).made == 1);
+  CHECK(validation::run_cases(order).made == 3 - first);
   order.part = {1, 1};
   CHECK(validation::run_cases(order).kept == 3);
 }
