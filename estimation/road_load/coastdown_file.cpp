@@ -11,6 +11,7 @@
 
 #include "estimation/road_load/coastdown_recording.h"
 #include "estimation/road_load/coastdown_rows.h"
+#include "estimation/road_load/coastdown_units.h"
 #include "sim/core/text.h"
 
 namespace rollrig::estimation {
@@ -262,9 +263,7 @@ void read_bins(CheckedRows& rows, BadRows bad_rows, CoastdownFile& file) {
   drop_incomplete_totals(rows, uses, file);
 }
 
-}  // namespace
-
-CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows) {
+CoastdownFile read_coastdown_rows(const std::string& path, BadRows bad_rows) {
   if (std::filesystem::is_directory(path)) return read_coastdown_recording(path, bad_rows);
   CheckedRows rows(path);
   const CsvTable& table = rows.table();
@@ -282,6 +281,14 @@ CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows) {
                       "columns time_s and speed_km_h, or v_hi_kmh, v_lo_kmh and dt_s", ""});
   }
   read_bins(rows, bad_rows, file);
+  return file;
+}
+
+}  // namespace
+
+CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows) {
+  CoastdownFile file = read_coastdown_rows(path, bad_rows);
+  require_coasting_decelerations(file);
   return file;
 }
 

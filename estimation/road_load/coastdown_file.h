@@ -70,7 +70,7 @@ struct CoastdownFile {
 /// within its run, or its bin does not fall, rises or overlaps. Bad rows are refused together, or left out; a wrong
 /// field that the fit does not need (`start_time`, `run_total_s`, `run_dist_m`, `dist_m`) is left empty.
 /// Errors   InputError: bad rows, where they are refused, or too many of them; a wrong or missing column, a run whose
-///          speed does not fall
+///          speed does not fall, decelerations that no coasting road vehicle has (require_coasting_decelerations())
 /// Checked  tests/estimation/coastdown_file_test.cpp, tests/cli/bad_input_test.cpp
 CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows = BadRows::kRefuse);
 

@@ -121,7 +121,8 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
 ///           a_i drag area by powers of yaw [m2]; k factor of rolling loss; s slope; h heading; d_0 [N] slope that was
 ///           not measured
 /// Validity  all of v^2 is drag of the air: the road load is A, B, 1/2 rho0 a_0
-/// Errors    InputError: no air flow and no wind (J2263), one heading alone, fewer than three pairs; RunFailure
+/// Errors    InputError: no air flow and no wind (J2263), an air speed in another unit, one heading alone, runs that
+///           are too short, fewer than three pairs; RunFailure
 /// Source    SAE J2263 and Regulation (EU) 2017/1151, 4.3.2.5 of Sub-Annex 4 (form of the equation; there also C_m,
 ///           which
 ///           still air does not tell from a_0); 40 CFR 1037.528 (air flow and grade)

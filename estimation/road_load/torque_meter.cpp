@@ -8,6 +8,7 @@
 #include <boost/math/constants/constants.hpp>
 
 #include "estimation/road_load/coastdown_rows.h"
+#include "estimation/road_load/coastdown_units.h"
 #include "estimation/road_load/road_load_procedure.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -160,25 +161,17 @@ MeanTorque calc_mean_torque(const TorqueMeasurement& at, double effective_mass_k
   return mean;
 }
 
-/// What a speed that is this share of its reference speed may be in.
-std::string guess_speed_unit(double share) {
-  constexpr double kKmPerMile = 1.609344;
-  constexpr double kNear = 0.03;
-  const auto is_near = [share](double wanted) { return std::abs(share / wanted - 1.0) < kNear; };
-  if (is_near(1.0 / kKmPerMile)) return "; speed_km_h looks as if it were in mph";
-  if (is_near(kKmPerMile)) return "; reference_km_h looks as if it were in mph";
-  if (is_near(1.0 / kKmhPerMs)) return "; speed_km_h looks as if it were in m/s";
-  return "";
-}
-
 /// Throws InputError where a mean speed is not near its reference speed.
 void require_reference_speeds(const std::string& path, const TorqueFile& file) {
   constexpr double kMostError = 0.1;  // Assumed: five times the limit of the procedure
+  constexpr double kNear = 0.03;
   for (const TorqueMeasurement& at : file.measurements) {
     const double speed_km_h = kKmhPerMs * calc_mean(at.speed_m_s);
     const double share = speed_km_h / at.reference_km_h;
     if (std::abs(share - 1.0) <= kMostError) continue;
-    throw InputError({"the mean speed is not near its reference speed" + guess_speed_unit(share), path, 0, "speed_km_h",
+    throw InputError({"the mean speed is not near its reference speed" +
+                          guess_speed_unit(share, "speed_km_h", "reference_km_h", kNear),
+                      path, 0, "speed_km_h",
                       fmt::format("{:.1f} at reference_km_h = {}", speed_km_h, at.reference_km_h),
                       "a mean within 10 % of the reference speed; the procedure asks for 1 km/h or 2 %", ""});
   }

@@ -7,8 +7,10 @@
 #include <Eigen/QR>
 
 #include "estimation/road_load/coastdown_points.h"
+#include "estimation/road_load/coastdown_units.h"
 #include "estimation/road_load/road_load_procedure.h"
 #include "estimation/road_load/variance_components.h"
+#include "estimation/run_checks/robust_statistics.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
 
@@ -21,6 +23,7 @@ using Eigen::VectorXd;
 
 constexpr double kGasConstant_J_kgK = 287.058;  // of air: 40 CFR 1037.528(h)(10)
 constexpr double kStretch_s = 5.0;              // Assumed: of the means whose differences are fitted
+constexpr std::size_t kFewestStretches = 3;     // of a run
 constexpr double kLeastYaw_rad = 0.0175;        // Assumed: 1 deg, below which yaw says nothing
 constexpr double kSpeedScale_m_s = 20.0;        // makes the components of variance alike in size
 
@@ -153,6 +156,26 @@ bool calibrate_air(const CoastdownData& data, std::vector<TraceRun>& traces, std
   return true;
 }
 
+/// Throws InputError where the air speed of all runs is to the vehicle speed as a unit is to another one, which no wind
+/// does on the median of both headings.
+void require_one_speed_unit(const std::vector<TraceRun>& traces) {
+  constexpr double kNear = 0.1;  // Assumed: what wind and the place of the anemometer add
+  std::vector<double> air_m_s, speed_m_s;
+  for (const TraceRun& trace : traces) {
+    for (const TraceSample& sample : trace.samples) {
+      air_m_s.push_back(sample.air.speed_m_s);
+      speed_m_s.push_back(sample.speed_m_s);
+    }
+  }
+  if (speed_m_s.empty()) return;
+  const double air = calc_median(air_m_s), speed = calc_median(speed_m_s);
+  const std::string guess = guess_speed_unit(air / speed, "air_speed_km_h", "speed_km_h", kNear);
+  if (guess.empty()) return;
+  throw InputError({"air_speed_km_h and speed_km_h are not in one unit" + guess, "", 0, "air_speed_km_h",
+                    fmt::format("a median of {:.1f}; that of speed_km_h is {:.1f}", kKmhPerMs * air, kKmhPerMs * speed),
+                    "both in km/h", ""});
+}
+
 /// What a coefficient is multiplied by at a sample.
 VectorXd list_terms(const TraceTerms& terms, const TraceSample& sample, int heading) {
   VectorXd factors(terms.count());
@@ -264,18 +287,32 @@ CoastdownData find_winds(const CoastdownData& data, const std::vector<TraceRun>&
   return winds;
 }
 
+/// Throws InputError where a heading has no run, or none that is long enough.
+void require_both_headings(const CoastdownData& data, const std::vector<TraceRun>& traces) {
+  for (const int heading : {+1, -1}) {
+    const auto is_it = [heading](const auto& run) { return run.heading == heading; };
+    if (std::any_of(traces.begin(), traces.end(), is_it)) continue;
+    if (std::none_of(data.runs.begin(), data.runs.end(), is_it)) {
+      throw InputError({"all runs have the same heading, or none: the procedure pairs opposite ones", "", 0, "heading",
+                        "", "a column heading with + and -, and runs of both", ""});
+    }
+    throw InputError({fmt::format("no run of the heading {} is long enough", heading > 0 ? "+" : "-"), "", 0, "time_s",
+                      "",
+                      fmt::format("runs that coast for {:g} s at least between the speeds of the fit",
+                                  kFewestStretches * kStretch_s),
+                      ""});
+  }
+}
+
 /// Pairs of the runs in their order; those with a run above the limits of the wind are rejected.
 std::vector<TraceRun> keep_pairs(const CoastdownData& data, std::vector<TraceRun> traces,
                                  const std::vector<std::string>& windy, RoadLoadProcedure& procedure) {
   constexpr std::size_t kFewest = 3;
   constexpr std::size_t kWanted = 5;
+  require_both_headings(data, traces);
   std::vector<const TraceRun*> ways[2];
   for (const TraceRun& trace : traces) {
     if (trace.heading != 0) ways[trace.heading > 0 ? 0 : 1].push_back(&trace);
-  }
-  if (ways[0].empty() || ways[1].empty()) {
-    throw InputError({"all runs have the same heading, or none: the procedure pairs opposite ones", "", 0, "heading",
-                      "", "a column heading with + and -, and runs of both", ""});
   }
   std::vector<TraceRun> kept;
   const std::size_t pairs = std::min(ways[0].size(), ways[1].size());
@@ -390,9 +427,11 @@ RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoad
   std::vector<TraceRun> traces;
   for (std::size_t i = 0; i < file.data.runs.size(); ++i) {
     TraceRun trace = cut_trace(file.data.runs[i], i, options, procedure.correction.reference_pressure_Pa);
-    if (trace.stretch > 0 && trace.samples.size() >= 3 * trace.stretch) traces.push_back(std::move(trace));
+    if (trace.stretch > 0 && trace.samples.size() >= kFewestStretches * trace.stretch)
+      traces.push_back(std::move(trace));
     procedure.run_names.push_back(name_of_run(file.data.runs[i], file.data));
   }
+  if (on_board) require_one_speed_unit(traces);
   const bool is_calibrated = on_board && calibrate_air(file.data, traces, procedure.warnings);
   const bool has_air = on_board || !file.data.runs.front().conditions.wind_m_s.empty();
   const std::vector<std::string> windy = check_winds(on_board ? find_winds(file.data, traces) : file.data,

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <filesystem>
 
 #include "build_paths.h"
 #include "sim/core/csv.h"
@@ -22,6 +23,25 @@ tests::ProcedureStudy make_study(int pairs) {
   study.interval_s = 0.5;
   study.wind_m_s = 1.0;
   return study;
+}
+
+/// The example of times through bins, its speeds and its times multiplied.
+std::string write_example_bins(double speed_factor, double time_factor) {
+  const CsvTable table = CsvTable::read(ROLLRIG_SOURCE_DIR "/assets/examples/coastdown_bins.csv");
+  CsvWriter csv(table.columns());
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    for (const std::string& column : table.columns()) {
+      const std::string cell = table.text(column)[row];
+      const double factor = column == "dt_s" ? time_factor : column.rfind("v_", 0) == 0 ? speed_factor : 1.0;
+      if (factor == 1.0) {
+        csv.add(cell);
+      } else {
+        csv.add(factor * std::stod(cell));
+      }
+    }
+    csv.end_row();
+  }
+  return csv.take();
 }
 
 }  // namespace
@@ -99,6 +119,28 @@ TEST_CASE("fit road-load by procedures: options and files that do not go togethe
   }
   tests::write_file(folder.file("coast.csv"), with_vehicle);
   CHECK_THAT(error_of("--method wltp --mass 1850"), Contains("another vehicle than 'a'") && Contains("line 41"));
+}
+
+TEST_CASE("fit road-load: times in minutes are refused by every way to fit, from traces and from bins", "[fast]") {
+  const TemporaryFolder folder;
+  auto data = tests::simulate_procedure(make_study(3), 1).file.data;
+  for (auto& run : data.runs) {
+    for (double& time_s : run.time_s) time_s /= 60.0;
+  }
+  tests::write_file(folder.file("traces.csv"), tests::write_procedure_csv(data));
+  tests::write_file(folder.file("bins.csv"), write_example_bins(1.0, 1.0 / 60.0));
+  const std::pair<const char*, const char*> files[]{{"traces.csv", "time_s"}, {"bins.csv", "dt_s"}};
+  for (const auto& [file, column] : files) {
+    for (const char* method : {"", " --method wltp", " --method j1263", " --method j2263"}) {
+      INFO(file << method);
+      const auto run =
+          run_program(std::string("fit road-load ") + file + " --mass 1850 --out fitted" + method, folder.path());
+      CHECK(run.status == 2);
+      CHECK_THAT(run.err, Contains(file) && Contains(std::string("key      ") + column) && Contains("minutes") &&
+                              Contains("m/s2, the median deceleration of the runs"));
+      CHECK_FALSE(std::filesystem::exists(folder.file("fitted")));
+    }
+  }
 }
 
 TEST_CASE("fit default-road-load: coefficients, class of a tire, what it is not", "[fast]") {

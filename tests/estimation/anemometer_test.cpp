@@ -185,6 +185,30 @@ TEST_CASE("SAE J2263: what is wrong with a test is said", "[fast]") {
     for (CoastdownRun& run : runs) run.bins.push_back({20.0, 18.0, 5.0});
     CHECK_THROWS_WITH(evaluate_traces(simulated.file, options), Contains("needs speed traces"));
   }
+  SECTION("air speeds in mph, and in m/s") {
+    for (const double factor : {1.0 / 1.609344, 1.609344 / 3.6}) {  // the second one after the first
+      for (CoastdownRun& run : runs) {
+        for (double& speed : run.conditions.air_speed_m_s) speed *= factor;
+      }
+      CHECK_THROWS_WITH(evaluate_traces(simulated.file, options),
+                        Contains(factor > 0.5 ? "air_speed_km_h looks as if it were in mph"
+                                              : "air_speed_km_h looks as if it were in m/s") &&
+                            Contains("speed_km_h is"));
+    }
+  }
+  SECTION("vehicle speeds in mph") {
+    for (CoastdownRun& run : runs) {
+      for (double& speed : run.speed_m_s) speed /= 1.609344;
+    }
+    CHECK_THROWS_WITH(evaluate_traces(simulated.file, options), Contains("; speed_km_h looks as if it were in mph"));
+  }
+  SECTION("runs of one heading too short") {
+    for (CoastdownRun& run : runs) {
+      if (run.heading > 0) continue;
+      for (double& time : run.time_s) time *= 0.05;
+    }
+    CHECK_THROWS_WITH(evaluate_traces(simulated.file, options), Contains("no run of the heading - is long enough"));
+  }
   SECTION("a gale") {
     study.wind_m_s = 9.0;
     simulated = simulate_procedure(study, 1);

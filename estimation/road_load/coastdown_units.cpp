@@ -1,0 +1,93 @@
+#include "estimation/road_load/coastdown_units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "estimation/run_checks/robust_statistics.h"
+#include "sim/core/error.h"
+#include "sim/core/units.h"
+
+namespace rollrig::estimation {
+namespace {
+
+// Assumed: decelerations of coasting road vehicles, from a truck at low speed to a car at a high one
+constexpr double kUsualLeast_m_s2 = 0.03, kUsualMost_m_s2 = 2.0;
+// Assumed: beyond, a unit is wrong for sure
+constexpr double kLeast_m_s2 = 0.005, kMost_m_s2 = 5.0;
+
+double calc_trace_deceleration_m_s2(const CoastdownRun& run) {
+  const auto top = std::max_element(run.speed_m_s.begin(), run.speed_m_s.end());
+  if (top == run.speed_m_s.end()) return 0.0;
+  const double lowest_m_s = *std::min_element(top, run.speed_m_s.end());
+  const double quarter_m_s = 0.25 * (*top - lowest_m_s);
+  if (!(quarter_m_s > 0.0)) return 0.0;
+  const auto end =
+      std::find_if(top, run.speed_m_s.end(), [&](double speed_m_s) { return speed_m_s <= lowest_m_s + quarter_m_s; });
+  auto begin = end - 1;
+  while (*begin < *top - quarter_m_s) --begin;
+  const auto time_at = [&run](auto at) { return run.time_s[static_cast<std::size_t>(at - run.speed_m_s.begin())]; };
+  return (*begin - *end) / (time_at(end) - time_at(begin));
+}
+
+double calc_bins_deceleration_m_s2(const CoastdownRun& run) {
+  double fall_m_s = 0.0, duration_s = 0.0;
+  for (const SpeedBin& bin : run.bins) {
+    fall_m_s += bin.high_m_s - bin.low_m_s;
+    duration_s += bin.duration_s;
+  }
+  return fall_m_s / duration_s;
+}
+
+/// In what the times may be; empty where no unit makes the deceleration a usual one.
+std::string guess_time_unit(double deceleration_m_s2) {
+  struct TimeUnit {
+    double length_s;
+    const char* name;
+  };
+  for (const TimeUnit& unit : {TimeUnit{60.0, "minutes"}, TimeUnit{3600.0, "hours"}, TimeUnit{1e-3, "ms"}}) {
+    const double in_seconds_m_s2 = deceleration_m_s2 / unit.length_s;
+    if (in_seconds_m_s2 >= kUsualLeast_m_s2 && in_seconds_m_s2 <= kUsualMost_m_s2) return unit.name;
+  }
+  return "";
+}
+
+}  // namespace
+
+void require_coasting_decelerations(const CoastdownFile& file) {
+  std::vector<double> decelerations_m_s2;
+  for (const CoastdownRun& run : file.data.runs) {
+    const double found_m_s2 = run.bins.empty() ? calc_trace_deceleration_m_s2(run) : calc_bins_deceleration_m_s2(run);
+    if (found_m_s2 > 0.0) decelerations_m_s2.push_back(found_m_s2);
+  }
+  if (decelerations_m_s2.empty()) return;
+  const double median_m_s2 = calc_median(decelerations_m_s2);
+  if (median_m_s2 >= kLeast_m_s2 && median_m_s2 <= kMost_m_s2) return;
+  const std::string column = file.is_trace ? "time_s" : "dt_s";
+  const std::string unit = guess_time_unit(median_m_s2);
+  throw InputError({"the runs do not slow down as a coasting road vehicle does: " +
+                        (unit.empty() ? "are times and speeds in the units of their columns?"
+                                      : column + " looks as if it were in " + unit),
+                    file.path, 0, column, fmt::format("{:.3g} m/s2, the median deceleration of the runs", median_m_s2),
+                    fmt::format("times in s and speeds in km/h that give {:g} to {:g} m/s2; coasting road vehicles "
+                                "have about {:g} to {:g}",
+                                kLeast_m_s2, kMost_m_s2, kUsualLeast_m_s2, kUsualMost_m_s2),
+                    ""});
+}
+
+std::string guess_speed_unit(double ratio, const std::string& column, const std::string& other, double tolerance) {
+  constexpr double kKmPerMile = 3.6 * kMph_m_s;
+  const auto is_near = [&](double wanted) { return std::abs(ratio / wanted - 1.0) < tolerance; };
+  const auto say = [](const std::string& name, const char* unit) {
+    return fmt::format("; {} looks as if it were in {}", name, unit);
+  };
+  if (is_near(1.0 / kKmPerMile)) return say(column, "mph");
+  if (is_near(kKmPerMile)) return say(other, "mph");
+  if (is_near(1.0 / kKmhPerMs)) return say(column, "m/s");
+  if (is_near(kKmhPerMs)) return say(other, "m/s");
+  return "";
+}
+
+}  // namespace rollrig::estimation
