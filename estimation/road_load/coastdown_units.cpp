@@ -33,12 +33,16 @@ double calc_trace_deceleration_m_s2(const CoastdownRun& run) {
 }
 
 double calc_bins_deceleration_m_s2(const CoastdownRun& run) {
+  const double center_m_s = 0.5 * (run.bins.front().high_m_s + run.bins.back().low_m_s);
+  constexpr double kRounding = 1e-9;  // two bins of one width have their middles at the quarters
+  const double quarter_m_s = (0.25 + kRounding) * (run.bins.front().high_m_s - run.bins.back().low_m_s);
   double fall_m_s = 0.0, duration_s = 0.0;
   for (const SpeedBin& bin : run.bins) {
+    if (std::abs(0.5 * (bin.high_m_s + bin.low_m_s) - center_m_s) > quarter_m_s) continue;
     fall_m_s += bin.high_m_s - bin.low_m_s;
     duration_s += bin.duration_s;
   }
-  return fall_m_s / duration_s;
+  return duration_s > 0.0 ? fall_m_s / duration_s : 0.0;
 }
 
 /// In what the times may be; empty where no unit makes the deceleration a usual one.

@@ -9,7 +9,7 @@ namespace rollrig::estimation {
 
 /// Throws InputError where the runs of a file do not slow down as coasting road vehicles do: their times or speeds are
 /// in another unit.
-/// Equation  median of the decelerations of the runs: of a trace over the middle half of its speeds, of bins over all
+/// Equation  median of the decelerations of the runs over the middle half of their speeds
 /// Checked   tests/estimation/coastdown_units_test.cpp
 void require_coasting_decelerations(const CoastdownFile& file);
 
