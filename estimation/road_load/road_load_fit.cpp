@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "estimation/road_load/coastdown_problem.h"
+#include "estimation/road_load/road_load_doubts.h"
 #include "estimation/road_load/road_load_iteration.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
@@ -197,8 +199,9 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
   if (!options.mass_kg.has_value()) {
     fit.warnings.push_back("no mass given: A, B and C are per unit of effective mass");
   } else {
-    const std::string doubt = doubt_drag_area(fit.as_tested.C_N_s2_per_m2, *options.mass_kg);
-    if (!doubt.empty()) fit.warnings.push_back(doubt);
+    for (std::string& doubt : doubt_road_load(fit.load, *options.mass_kg, fit.high_m_s)) {
+      fit.warnings.push_back(std::move(doubt));
+    }
   }
   if (options.bounds.has_value()) {
     fit.warnings.push_back(
@@ -208,18 +211,6 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
 }
 
 }  // namespace
-
-std::string doubt_drag_area(double C_N_s2_per_m2, double mass_kg) {
-  constexpr double kAirDensity_kg_m3 = 1.2;
-  constexpr double kLeast_m2 = 0.15;  // Assumed: a velomobile has less, the slimmest cars 0.4
-  constexpr double kMost_m2 = 15.0;   // Assumed: trucks with a trailer have up to 10
-  const double area_m2 = 2.0 * C_N_s2_per_m2 / kAirDensity_kg_m3;
-  if (C_N_s2_per_m2 <= 0.0 || (area_m2 >= kLeast_m2 && area_m2 <= kMost_m2)) return "";
-  return fmt::format(
-      "the term with v^2 is that of a drag area of {:.2g} m2; road vehicles have 0.3 to 10. All forces are in "
-      "proportion to the mass: is {:g} kg right?",
-      area_m2, mass_kg);
-}
 
 double RoadLoadEstimate::sd(int i) const { return std::sqrt(covariance(i, i)); }
 

@@ -105,10 +105,6 @@ struct RoadLoadFit : RoadLoadEstimate {     // at reference conditions
   bool is_cut(int i) const;
 };
 
-/// What is odd about a drag area, which follows the mass where forces are found from decelerations; empty where it is
-/// that of a road vehicle. `C` is the coefficient of v^2 [N s2/m2] at an air density of 1.2 kg/m3.
-std::string doubt_drag_area(double C_N_s2_per_m2, double mass_kg);
-
 /// Generalized least squares on mean forces over speed bins.
 /// Equation  time through a bin T = int m dv / F(v);  force of the bin f = m (v_hi - v_lo) / dt;
 ///           F(v) = k (A + B v) + q C (v + h w)^2 + h (m g s + d_0 + d_1 v) + d_1^2/(4 C)

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <boost/math/distributions/students_t.hpp>
 
+#include "estimation/road_load/road_load_doubts.h"
 #include "sim/core/units.h"
 
 namespace rollrig::estimation {
@@ -236,45 +238,21 @@ void check_reference_speeds(RoadLoadProcedure& procedure) {
 }
 
 void doubt_units(RoadLoadProcedure& procedure) {
-  // Assumed: rolling loss of a car at 50 km/h is 0.004 to 0.016 of its weight, and its drag area over mass and that
-  // share is below 0.075 m2/kg. Speeds in mph that are taken for km/h divide f0 by 1.609, multiply f2 by it, and end
-  // near 80.
-  constexpr double kMostRolling = 0.0075;
-  constexpr double kMostRatio = 0.085;
-  constexpr double kMostTop_m_s = 110.0 / 3.6;
-  constexpr double kAt_m_s = 50.0 / 3.6;
-  constexpr double kFarBelow = 0.0015;
-  constexpr double kFarAbove = 0.03;
-  constexpr double kImpossible = 5.0;
+  constexpr double kLeastRolling = 0.0003, kMostRolling = 0.15;  // Assumed: five times as far off as what is doubted
   const double mass_kg = procedure.correction.mass_kg;
+  const models::RoadLoad<double> load{procedure.road_load(0), procedure.road_load(1), procedure.road_load(2)};
   double top_m_s = 0.0;
   for (const ProcedurePoint& point : procedure.points) top_m_s = std::max(top_m_s, point.speed_m_s);
-  const double rolling =
-      (procedure.road_load(0) + procedure.road_load(1) * kAt_m_s) / (mass_kg * kStandardGravity_m_s2);
-  const double area_m2 = 2.0 * procedure.road_load(2) / 1.2;
-  const double ratio = rolling > 0.0 ? area_m2 / mass_kg / rolling : 0.0;
-  if (!(rolling > kFarBelow / kImpossible && rolling < kFarAbove * kImpossible)) {
+  const double rolling = calc_rolling_share(load, mass_kg);
+  if (!(rolling > kLeastRolling && rolling < kMostRolling)) {
     throw InputError(
         {fmt::format("the rolling loss at 50 km/h is {:.3g} of the weight, which no vehicle has: are the mass "
                      "and the units of the columns right?",
                      rolling),
          "", 0, "--mass", fmt::format("{:g}", mass_kg), "a loss near that of cars, 0.004 to 0.016", ""});
   }
-  if (top_m_s < kMostTop_m_s && rolling < kMostRolling && ratio > kMostRatio) {
-    procedure.warnings.push_back(fmt::format(
-        "the rolling loss is {:.4f} of the weight, which is low, f2 is that of a drag area of {:.2f} m2, which "
-        "is high for {:.0f} kg, and the speeds end near {:.0f}. All would be usual if they were in mph and not "
-        "in km/h",
-        rolling, area_m2, mass_kg, kKmhPerMs * top_m_s));
-  } else if (rolling > kFarAbove || (rolling > 0.0 && rolling < kFarBelow)) {
-    procedure.warnings.push_back(fmt::format(
-        "the rolling loss at 50 km/h is {:.4f} of the weight; that of cars is about 0.004 to 0.016. Are mass "
-        "and units right?",
-        rolling));
-  }
-  const std::string doubt = doubt_drag_area(procedure.road_load(2), mass_kg);
-  if (!doubt.empty()) procedure.warnings.push_back(doubt);
-  if (procedure.road_load(0) < 0.0 || procedure.road_load(2) < 0.0) {
+  for (std::string& doubt : doubt_road_load(load, mass_kg, top_m_s)) procedure.warnings.push_back(std::move(doubt));
+  if (load.A_N < 0.0 || load.C_N_s2_per_m2 < 0.0) {
     procedure.warnings.push_back("f0 or f2 is below 0: the data do not fit a vehicle that coasts freely");
   }
 }

@@ -98,7 +98,7 @@ void check_reference_speeds(RoadLoadProcedure& procedure);
 /// Pairs and statistical precision against the limits of the WLTP.
 void check_reference_precision(RoadLoadProcedure& procedure);
 
-/// Warns where the size of the coefficients says that speeds are in mph, or the mass is not that of the vehicle.
+/// Warns of what doubt_road_load() finds, and of coefficients below 0.
 /// Errors  InputError: a rolling loss that no vehicle has
 void doubt_units(RoadLoadProcedure& procedure);
 

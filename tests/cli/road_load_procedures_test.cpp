@@ -143,6 +143,21 @@ TEST_CASE("fit road-load: times in minutes are refused by every way to fit, from
   }
 }
 
+TEST_CASE("fit road-load: bins in mph are doubted without a procedure, too", "[fast]") {
+  const TemporaryFolder folder;
+  tests::write_file(folder.file("right.csv"), write_example_bins(1.0, 1.0));
+  tests::write_file(folder.file("mph.csv"), write_example_bins(1.0 / 1.609344, 1.0));
+  for (const char* file : {"right.csv", "mph.csv"}) {
+    const auto run =
+        run_program(std::string("fit road-load ") + file + " --mass 2203 --force --json fit.json", folder.path());
+    INFO(file << run.err);
+    REQUIRE(run.status == 0);
+    const std::string warnings = Json::parse(tests::read_file(folder.file("fit.json")))["warnings"].dump();
+    const std::string doubt = "All would be usual if they were in mph and not in km/h";
+    CHECK((warnings.find(doubt) != std::string::npos) == (file == std::string("mph.csv")));
+  }
+}
+
 TEST_CASE("fit default-road-load: coefficients, class of a tire, what it is not", "[fast]") {
   const TemporaryFolder folder;
   const auto run = run_program(

@@ -1,0 +1,63 @@
+#include "estimation/road_load/road_load_doubts.h"
+
+#include <fmt/format.h>
+
+#include "sim/core/units.h"
+
+namespace rollrig::estimation {
+namespace {
+
+constexpr double kAirDensity_kg_m3 = 1.2;
+
+double calc_drag_area_m2(const models::RoadLoad<double>& load) { return 2.0 * load.C_N_s2_per_m2 / kAirDensity_kg_m3; }
+
+/// Whether loss, drag area and highest speed are those of a car whose speeds in mph were taken for km/h.
+bool looks_like_mph(const models::RoadLoad<double>& load, double mass_kg, double top_speed_m_s) {
+  // Assumed: rolling loss of a car at 50 km/h is 0.004 to 0.016 of its weight, and its drag area over mass and that
+  // share is below 0.075 m2/kg. Speeds in mph that are taken for km/h divide f0 by 1.609, multiply f2 by it, and end
+  // near 80.
+  constexpr double kMostRolling = 0.0075;
+  constexpr double kMostRatio = 0.085;
+  constexpr double kMostTop_m_s = 110.0 / 3.6;
+  const double rolling = calc_rolling_share(load, mass_kg);
+  const double ratio = rolling > 0.0 ? calc_drag_area_m2(load) / mass_kg / rolling : 0.0;
+  return top_speed_m_s < kMostTop_m_s && rolling < kMostRolling && ratio > kMostRatio;
+}
+
+}  // namespace
+
+double calc_rolling_share(const models::RoadLoad<double>& load, double mass_kg) {
+  constexpr double kAt_m_s = 50.0 / 3.6;
+  return (load.A_N + load.B_N_s_per_m * kAt_m_s) / (mass_kg * kStandardGravity_m_s2);
+}
+
+std::vector<std::string> doubt_road_load(const models::RoadLoad<double>& load, double mass_kg, double top_speed_m_s) {
+  constexpr double kLeastRolling = 0.0015, kMostRolling = 0.03;  // Assumed: far from those of cars
+  constexpr double kLeast_m2 = 0.15;  // Assumed: a velomobile has less, the slimmest cars 0.4
+  constexpr double kMost_m2 = 15.0;   // Assumed: trucks with a trailer have up to 10
+  const double rolling = calc_rolling_share(load, mass_kg);
+  const double area_m2 = calc_drag_area_m2(load);
+  if (looks_like_mph(load, mass_kg, top_speed_m_s)) {
+    return {fmt::format(
+        "the rolling loss is {:.4f} of the weight, which is low, the term with v^2 is that of a drag area of {:.2f} "
+        "m2, which is high for {:.0f} kg, and the speeds end near {:.0f}. All would be usual if they were in mph and "
+        "not in km/h",
+        rolling, area_m2, mass_kg, kKmhPerMs * top_speed_m_s)};
+  }
+  std::vector<std::string> doubts;
+  if (rolling > kMostRolling || (rolling > 0.0 && rolling < kLeastRolling)) {
+    doubts.push_back(fmt::format(
+        "the rolling loss at 50 km/h is {:.4f} of the weight; that of cars is about 0.004 to 0.016. Are mass and units "
+        "right?",
+        rolling));
+  }
+  if (area_m2 > 0.0 && (area_m2 < kLeast_m2 || area_m2 > kMost_m2)) {
+    doubts.push_back(fmt::format(
+        "the term with v^2 is that of a drag area of {:.2g} m2; road vehicles have 0.3 to 10. All forces are in "
+        "proportion to the mass: is {:g} kg right?",
+        area_m2, mass_kg));
+  }
+  return doubts;
+}
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,20 @@
+#pragma once
+/// What is odd about a road load for the mass of its vehicle.
+
+#include <string>
+#include <vector>
+
+#include "models/vehicle/road_load.h"
+
+namespace rollrig::estimation {
+
+/// Rolling loss at 50 km/h over the weight.
+double calc_rolling_share(const models::RoadLoad<double>& load, double mass_kg);
+
+/// What speaks against the units of the data or against the mass, one sentence each: a rolling loss and a drag area
+/// that would be usual if the speeds were in mph; else a rolling loss or a drag area that road vehicles do not have.
+/// `top_speed_m_s` is the highest speed of the data.
+/// Checked   tests/estimation/road_load_doubts_test.cpp
+std::vector<std::string> doubt_road_load(const models::RoadLoad<double>& load, double mass_kg, double top_speed_m_s);
+
+}  // namespace rollrig::estimation

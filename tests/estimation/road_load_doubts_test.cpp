@@ -1,0 +1,63 @@
+#include "estimation/road_load/road_load_doubts.h"
+
+#include <catch2/catch.hpp>
+
+#include "estimation/road_load/road_load_fit.h"
+#include "tests/support/coastdown_study.h"
+
+using namespace rollrig;
+using namespace rollrig::estimation;
+using Catch::Contains;
+
+namespace {
+
+constexpr double kCarMass_kg = 2100.0;
+constexpr double kCarTop_m_s = 130.0 / 3.6;
+const models::RoadLoad<double> kCar{100.0, 0.5 * 3.6, 0.032 * 12.96};
+
+/// As it comes out where speeds are a factor too small.
+models::RoadLoad<double> slow_down(const models::RoadLoad<double>& load, double factor) {
+  return {load.A_N / factor, load.B_N_s_per_m, load.C_N_s2_per_m2 * factor};
+}
+
+}  // namespace
+
+TEST_CASE("a usual road load has no doubt, one of speeds in mph has one alone", "[fast]") {
+  CHECK(doubt_road_load(kCar, kCarMass_kg, kCarTop_m_s).empty());
+  CHECK(doubt_road_load(kCar, kCarMass_kg, 80.0 / 3.6).empty());
+  const auto doubts = doubt_road_load(slow_down(kCar, 1.609344), kCarMass_kg, kCarTop_m_s / 1.609344);
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Contains("speeds end near 81") && Contains("in mph and not in km/h"));
+}
+
+TEST_CASE("a rolling loss or a drag area that no road vehicle has is doubted", "[fast]") {
+  const auto sticky = doubt_road_load({900.0, 0.0, kCar.C_N_s2_per_m2}, kCarMass_kg, kCarTop_m_s);
+  REQUIRE(sticky.size() == 1);
+  CHECK_THAT(sticky[0], Contains("rolling loss at 50 km/h is 0.0437"));
+  const auto wide = doubt_road_load({100.0, 1.8, 12.0}, kCarMass_kg, kCarTop_m_s);
+  REQUIRE(wide.size() == 1);
+  CHECK_THAT(wide[0], Contains("a drag area of 20 m2") && Contains("is 2100 kg right?"));
+  CHECK(doubt_road_load({9000.0, 0.0, 12.0}, kCarMass_kg, kCarTop_m_s).size() == 2);
+}
+
+TEST_CASE("the fit without a method doubts speeds in mph if it has a mass", "[fast]") {
+  tests::CoastdownStudy study;
+  study.load = kCar;
+  study.pairs = 2;
+  CoastdownData data = tests::simulate_coastdowns(study, 1);
+  const auto count_doubts = [&data](std::optional<double> mass_kg) {
+    RoadLoadFitOptions options;
+    options.mass_kg = mass_kg;
+    int count = 0;
+    for (const std::string& warning : fit_road_load(data, options).warnings) {
+      count += warning.find("in mph and not in km/h") != std::string::npos ? 1 : 0;
+    }
+    return count;
+  };
+  CHECK(count_doubts(study.mass_kg) == 0);
+  for (CoastdownRun& run : data.runs) {
+    for (double& speed_m_s : run.speed_m_s) speed_m_s /= 1.609344;
+  }
+  CHECK(count_doubts(study.mass_kg) == 1);
+  CHECK(count_doubts(std::nullopt) == 0);
+}
