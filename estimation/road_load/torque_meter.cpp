@@ -122,14 +122,8 @@ void require_possible_radius(const std::string& path, double radius_m, double tu
 }
 
 /// By the wheels' rotation at 80 km/h, or at the highest reference speed below.
-DynamicRadius find_wheel_radius(const std::string& path, const TorqueFile& file,
-                                const RoadLoadProcedureOptions& options) {
+DynamicRadius measure_wheel_radius(const TorqueFile& file) {
   constexpr int kRadiusSpeed_km_h = 80;
-  if (options.wheel_radius_m.has_value()) return {*options.wheel_radius_m, 0.0, 0.0};
-  if (!file.has_wheel_speeds) {
-    throw InputError({"the dynamic radius of the tires is missing: a torque becomes a force by it", "command line", 0,
-                      "--wheel-radius", "", "--wheel-radius <m>, or a column wheel_speed_Hz", ""});
-  }
   int highest_km_h = 0;
   for (const TorqueMeasurement& at : file.measurements) {
     if (at.reference_km_h <= kRadiusSpeed_km_h) highest_km_h = std::max(highest_km_h, at.reference_km_h);
@@ -142,8 +136,33 @@ DynamicRadius find_wheel_radius(const std::string& path, const TorqueFile& file,
     count += 1.0;
   }
   const double radius_m = speed_m_s / (boost::math::constants::two_pi<double>() * turns_Hz);
-  require_possible_radius(path, radius_m, turns_Hz / count);
   return {radius_m, speed_m_s / count, turns_Hz / count};
+}
+
+/// The radius that is given, with a warning where the wheels say another one; else that of the wheels.
+DynamicRadius find_wheel_radius(const std::string& path, const TorqueFile& file,
+                                const RoadLoadProcedureOptions& options, std::vector<std::string>& warnings) {
+  constexpr double kMostDifference = 0.05;  // Assumed: of a nominal radius from the dynamic one
+  if (!options.wheel_radius_m.has_value()) {
+    if (!file.has_wheel_speeds) {
+      throw InputError({"the dynamic radius of the tires is missing: a torque becomes a force by it", "command line", 0,
+                        "--wheel-radius", "", "--wheel-radius <m>, or a column wheel_speed_Hz", ""});
+    }
+    const DynamicRadius measured = measure_wheel_radius(file);
+    require_possible_radius(path, measured.radius_m, measured.wheel_speed_Hz);
+    return measured;
+  }
+  const double given_m = *options.wheel_radius_m;
+  if (file.has_wheel_speeds) {
+    const DynamicRadius measured = measure_wheel_radius(file);
+    if (std::abs(given_m / measured.radius_m - 1.0) > kMostDifference) {
+      warnings.push_back(fmt::format(
+          "--wheel-radius is {:.3f} m, but speed_km_h and wheel_speed_Hz give {:.3f} m at {:.0f} km/h; all forces are "
+          "in inverse proportion to the radius",
+          given_m, measured.radius_m, kKmhPerMs * measured.speed_m_s));
+    }
+  }
+  return {given_m, 0.0, 0.0};
 }
 
 /// Equation  C_m = mean C - (m_st + m_r) a r,  a slope of the speed over time
@@ -278,7 +297,7 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
       check_winds(file.runs, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, procedure.checks);
   procedure.correction.wind_m_s = find_common_wind(file.runs);
   require_reference_speeds(path, file);
-  const DynamicRadius radius = find_wheel_radius(path, file, options);
+  const DynamicRadius radius = find_wheel_radius(path, file, options, procedure.warnings);
   procedure.wheel_radius_m = radius.radius_m;
   const double effective_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
   std::vector<MeanTorque> means;

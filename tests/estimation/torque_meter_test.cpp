@@ -172,6 +172,22 @@ TEST_CASE("torque meter: turns of the wheels in another unit are refused by the 
   CHECK_THROWS_WITH(evaluate_torques(write(0.62137, 1.0)), Contains("a radius that no tire has"));  // both in mph
 }
 
+TEST_CASE("torque meter: a given radius that is not that of the wheels is doubted, with both", "[fast]") {
+  const std::string csv = write_torques({});
+  const auto find_doubt = [&csv](double given_m) {
+    RoadLoadProcedureOptions options;
+    options.wheel_radius_m = given_m;
+    for (const std::string& warning : evaluate_torques(csv, options).warnings) {
+      if (warning.find("--wheel-radius") != std::string::npos) return warning;
+    }
+    return std::string();
+  };
+  CHECK_THAT(find_doubt(0.6), Contains("0.600 m") && Contains("0.320 m at 80 km/h"));
+  CHECK_THAT(find_doubt(0.3), Contains("0.300 m"));
+  CHECK(find_doubt(0.31).empty());  // 3 %
+  CHECK(find_doubt(0.32).empty());
+}
+
 TEST_CASE("torque meter: torques of the wrong sign are refused, those of one run downhill are not", "[fast]") {
   const auto write = [](const std::vector<double>& torques_Nm) {
     CsvWriter csv({"reference_km_h", "speed_km_h", "wheel_torque_Nm", "run", "heading"});
