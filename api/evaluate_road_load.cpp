@@ -72,6 +72,42 @@ std::vector<std::string> doubt_runs(const RoadLoadProcedureOptions& options, Coa
   return texts;
 }
 
+struct RunName {
+  std::string session, id, shown;
+};
+
+std::vector<RunName> list_run_names(const estimation::CoastdownData& data) {
+  std::vector<RunName> names;
+  for (const estimation::CoastdownRun& run : data.runs) {
+    names.push_back({run.session, run.id, estimation::name_of_run(run, data)});
+  }
+  return names;
+}
+
+/// Runs that are not in the data any more.
+std::vector<std::string> list_dropped(const std::vector<RunName>& runs, const estimation::CoastdownData& data) {
+  std::vector<std::string> dropped;
+  for (const RunName& run : runs) {
+    const auto is_it = [&run](const auto& other) { return other.session == run.session && other.id == run.id; };
+    if (std::none_of(data.runs.begin(), data.runs.end(), is_it)) dropped.push_back(run.shown);
+  }
+  return dropped;
+}
+
+/// Evaluates what copies have left. An error about headings and pairs says which runs were dropped as copies.
+RoadLoadProcedure evaluate_checked(const CoastdownFile& file, const RoadLoadProcedureOptions& options,
+                                   const std::vector<std::string>& copies) {
+  try {
+    return options.kind == RoadLoadProcedureKind::kWltp ? estimation::evaluate_wltp_coastdowns(file, options)
+                                                        : estimation::evaluate_traces(file, options);
+  } catch (const InputError& error) {
+    InputProblem problem = error.problem();
+    if (copies.empty() || problem.key != "heading") throw;
+    problem.what += fmt::format(". Dropped, since each is a copy of another run: {}", fmt::join(copies, ", "));
+    throw InputError(problem);
+  }
+}
+
 std::string find_recording_role(const std::string& path) {
   return std::filesystem::path(path).extension() == ".csv" ? "recording" : "other file";
 }
@@ -87,10 +123,9 @@ RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedure
     options.mass_kg = file.vehicle->mass_kg;
     options.rotating_mass_kg = file.vehicle->rotating_mass_kg;
   }
+  const std::vector<RunName> runs = list_run_names(file.data);
   const std::vector<std::string> doubts = doubt_runs(options, file);
-  RoadLoadProcedure procedure = options.kind == RoadLoadProcedureKind::kWltp
-                                    ? estimation::evaluate_wltp_coastdowns(file, options)
-                                    : estimation::evaluate_traces(file, options);
+  RoadLoadProcedure procedure = evaluate_checked(file, options, list_dropped(runs, file.data));
   procedure.warnings.insert(procedure.warnings.begin(), doubts.begin(), doubts.end());
   if (file.rows_off > 0) procedure.warnings.push_back(format_count(file.rows_off, "row") + " left out: use = Off");
   if (!file.left_out.problems.empty()) {

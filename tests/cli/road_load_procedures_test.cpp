@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <regex>
 
 #include "build_paths.h"
 #include "sim/core/csv.h"
@@ -140,6 +141,26 @@ TEST_CASE("fit road-load: times in minutes are refused by every way to fit, from
                               Contains("m/s2, the median deceleration of the runs"));
       CHECK_FALSE(std::filesystem::exists(folder.file("fitted")));
     }
+  }
+}
+
+TEST_CASE("fit road-load by procedures: where copies are dropped, an error about headings names them", "[fast]") {
+  const TemporaryFolder folder;
+  auto data = tests::simulate_procedure(make_study(3), 1).file.data;
+  for (std::size_t i = 1; i < data.runs.size(); i += 2) {  // each - run becomes the + run before it
+    const std::string id = data.runs[i].id;
+    data.runs[i] = data.runs[i - 1];
+    data.runs[i].id = id;
+    data.runs[i].heading = -1;
+  }
+  tests::write_file(folder.file("copies.csv"), tests::write_procedure_csv(data));
+  for (const char* method : {"wltp", "j1263", "j2263"}) {
+    INFO(method);
+    const auto run = run_program(std::string("fit road-load copies.csv --mass 1850 --method ") + method, folder.path());
+    CHECK(run.status == 2);
+    const std::string one_line = std::regex_replace(run.err, std::regex("\\s+"), " ");
+    CHECK_THAT(one_line, Contains("all runs have the same heading") &&
+                             Contains("Dropped, since each is a copy of another run: 2, 4, 6 "));
   }
 }
 
