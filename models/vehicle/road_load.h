@@ -15,7 +15,7 @@ struct VehicleBody {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"mass_kg", between(1.0, 1e6), "Mass as tested"}, p.mass_kg);
+    visit(Field{"mass_kg", between(100.0, 1e6), "Mass as tested"}, p.mass_kg);
     visit(Field{"rotating_mass_kg", non_negative(), "Equivalent mass of all that turns, wheels included"},
           p.rotating_mass_kg);
     visit(Field{"drag_area_m2", non_negative(), "Drag coefficient times frontal area; not needed beside [road_load]"},

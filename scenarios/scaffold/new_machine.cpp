@@ -134,7 +134,7 @@ class VehicleText {
 };
 
 void require_vehicle_options(const NewVehicleOptions& options) {
-  require_given(options.mass_kg, between(50.0, 100000.0), "--mass", "kg");
+  require_given(options.mass_kg, between(100.0, 100000.0), "--mass", "kg");
   require_given(options.drag_area_m2, between(0.01, 20.0), "--drag-area", "m2");
   require_given(options.rotating_mass_kg, non_negative(), "--rotating-mass", "kg");
   require_given(options.wheelbase_m, between(0.5, 20.0), "--wheelbase", "m");
