@@ -119,9 +119,10 @@ std::optional<ClassMistake> find_class_mistake(const ServiceDescription& service
   }
   if (service.is_heavy() || *speed_km_h < kSymbolN_km_h) return std::nullopt;
   return ClassMistake{"class",
-                      fmt::format("a tire with load index {} and speed symbol {} is of class C2, not C3",
+                      fmt::format("a tire with load index {} and speed symbol {} is of class C1 or C2, not C3",
                                   service.load_index, service.speed_symbol),
-                      "class \"C2\", a load index from 122, or a speed symbol up to M"};
+                      "class \"C1\" of passenger cars, class \"C2\" of commercial vehicles, a load index from 122, or "
+                      "a speed symbol up to M"};
 }
 
 ServiceDescription read_service_description(const ConfigTable& table) {

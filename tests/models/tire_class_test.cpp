@@ -108,6 +108,11 @@ TEST_CASE("a class that contradicts its numbers is refused, with the number", "[
   CHECK(ends_with(find_refused_key("class = \"C2\"\nload_index = 104\nspeed_symbol = \"M\"\n"), "speed_symbol"));
   CHECK(ends_with(find_refused_key("class = \"C3\"\nload_index = 156\n"), "speed_symbol"));
   CHECK(ends_with(find_refused_key("class = \"C3\"\nload_index = 118\nspeed_symbol = \"R\"\n"), "class"));
+  // Load index and symbol do not tell a passenger car from a van.
+  const auto mistake = models::find_class_mistake(make_service(TireClass::kC3, 91, "V"));
+  REQUIRE(mistake.has_value());
+  CHECK(mistake->what == "a tire with load index 91 and speed symbol V is of class C1 or C2, not C3");
+  CHECK(mistake->allowed.find("\"C1\" of passenger cars") != std::string::npos);
   CHECK(ends_with(find_refused_key("class = \"C2\"\nload_index = 104\nreinforced = true\n"), "reinforced"));
 }
 
