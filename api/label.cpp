@@ -205,6 +205,9 @@ TireLabel make_label(const LabelInput& input) {
     label.warnings.push_back(
         fmt::format("load index {} is above that of passenger car tires: is the class C3?", service.load_index));
   }
+  if (const auto doubt = models::doubt_class_by_rrc(service.tire_class, rrc, service.is_severe_snow)) {
+    label.warnings.push_back(*doubt);
+  }
   label.text = format_label(label, input.rrc_N_per_kN.has_value() ? "given" : "simulated test of ISO 28580");
   label.json = to_text(make_label_json(label));
   return label;

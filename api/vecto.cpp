@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <boost/algorithm/string/erase.hpp>
+#include <boost/algorithm/string/trim.hpp>
 #include <cctype>
 #include <cmath>
+#include <optional>
 
 #include "exports/vecto_tire.h"
 #include "models/tire/label_class.h"
@@ -39,7 +41,7 @@ std::string without_spaces(const std::string& text) { return boost::algorithm::e
 
 /// The size as VECTO writes it; spaces do not count.
 std::string find_vecto_dimension(const VectoTireInput& input, const models::TireFile& tire) {
-  const std::string dimension = input.dimension.empty() ? tire.designation : input.dimension;
+  const std::string dimension = input.dimension.value_or(tire.designation);
   const std::vector<std::string>& known = exports::list_vecto_dimensions();
   const auto found = std::find_if(known.begin(), known.end(), [&](const std::string& size) {
     return without_spaces(size) == without_spaces(dimension);
@@ -61,7 +63,13 @@ void require_vecto_date(const std::string& date) {
                     date, fmt::format("a time such as {}, or a later one", kFirst), ""});
 }
 
-std::string take_or(const std::string& given, const std::string& fallback) { return given.empty() ? fallback : given; }
+/// The text that is given; throws InputError where it has no character that shows.
+std::string take_or(const std::optional<std::string>& given, const std::string& option, const std::string& fallback) {
+  if (!given.has_value()) return fallback;
+  if (!boost::algorithm::trim_copy(*given).empty()) return *given;
+  throw InputError({fmt::format("{} is empty", option), "command line", 0, option, *given,
+                    fmt::format("a text, or no {} for '{}'", option, fallback), ""});
+}
 
 }  // namespace
 
@@ -73,10 +81,11 @@ VectoTireFile make_vecto_tire(const VectoTireInput& input) {
   }
   exports::VectoTire component;
   component.id = make_vecto_id(tire.name);
-  component.manufacturer = take_or(input.manufacturer, "simulated");
-  component.model = take_or(input.model, tire.name);
-  component.certification_number = take_or(input.certification_number, "simulated, not certified");
-  component.date = take_or(input.date, "2017-01-01T00:00:00Z");
+  component.manufacturer = take_or(input.manufacturer, "--manufacturer", "simulated");
+  component.model = take_or(input.model, "--model", tire.name);
+  component.certification_number =
+      take_or(input.certification_number, "--certification-number", "simulated, not certified");
+  component.date = take_or(input.date, "--date", "2017-01-01T00:00:00Z");
   require_vecto_date(component.date);
   component.app_version = fmt::format("rollrig {}", ROLLRIG_VERSION);
   component.dimension = find_vecto_dimension(input, tire);
@@ -87,6 +96,10 @@ VectoTireFile make_vecto_tire(const VectoTireInput& input) {
   made.rrc = component.rrc;
   made.load_N = component.load_N;
   made.warnings = tire.list_class_doubts();
+  if (tire.service.has_value()) {
+    const auto doubt = models::doubt_class_by_rrc(tire.service->tire_class, made.rrc, tire.service->is_severe_snow);
+    if (doubt.has_value()) made.warnings.push_back(*doubt);
+  }
   return made;
 }
 

@@ -11,13 +11,13 @@ namespace rollrig {
 /// The tire, and what a tire file does not say. Errors name a member as the option of the command line:
 /// certification_number as "--certification-number".
 struct VectoTireInput {
-  std::string tire;                    // name of an asset, or a path
-  std::optional<double> rrc_N_per_kN;  // to declare; absent: by the simulated test of ISO 28580
-  std::string manufacturer;            // empty: "simulated"
-  std::string model;                   // empty: the name of the tire
-  std::string certification_number;    // empty: "simulated, not certified"
-  std::string date;                    // in UTC; empty: 2017-01-01T00:00:00Z, which VECTO's Hashing Tool replaces
-  std::string dimension;               // as VECTO writes it; empty: the designation of the tire
+  std::string tire;                                 // name of an asset, or a path
+  std::optional<double> rrc_N_per_kN;               // to declare; absent: by the simulated test of ISO 28580
+  std::optional<std::string> manufacturer;          // absent: "simulated"
+  std::optional<std::string> model;                 // absent: the name of the tire
+  std::optional<std::string> certification_number;  // absent: "simulated, not certified"
+  std::optional<std::string> date;       // in UTC; absent: 2017-01-01T00:00:00Z, which VECTO's Hashing Tool replaces
+  std::optional<std::string> dimension;  // as VECTO writes it; absent: the designation of the tire
 };
 
 /// The component as XML, checked against the schema.
@@ -31,7 +31,7 @@ struct VectoTireFile {
 /// Makes the tire component of VECTO, schema 1.0, without signature.
 /// Example  input.tire = "c3_315_80r22_5"; write_folder("vecto", {{"tire.xml", make_vecto_tire(input).xml}});
 /// Errors   InputError: an unknown tire, or one without [iso_28580]; an RRc that no tire has; a size that VECTO does not
-///          know; a text or a date that its schema refuses
+///          know; a text that is empty; a text or a date that its schema refuses
 VectoTireFile make_vecto_tire(const VectoTireInput& input);
 
 }  // namespace rollrig

@@ -1,5 +1,7 @@
 #include "models/tire/label_class.h"
 
+#include <fmt/format.h>
+
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
@@ -58,6 +60,29 @@ std::vector<RrcLimit> list_rrc_limits(TireClass tire_class, bool is_severe_snow)
   if (tire_class == TireClass::kC2) limits = {10.5, 9.0};
   if (tire_class == TireClass::kC3) limits = {8.0, 6.5};
   return {{1, (limits[0] + more) * kPerKilo}, {2, (limits[1] + more) * kPerKilo}};
+}
+
+std::optional<std::string> doubt_class_by_mean(TireClass tire_class, double mean_rrc) {
+  constexpr double kLeastShare = 0.6;
+  const double most = list_rrc_limits(tire_class, false).front().rrc;
+  const double least = kLeastShare * list_label_bounds(tire_class).front();
+  if (mean_rrc >= least && mean_rrc <= most) return std::nullopt;
+  const std::string limit =
+      mean_rrc > most
+          ? fmt::format("above {:g} N/kN, the limit of UN R117, stage 1", most / kPerKilo)
+          : fmt::format("below {:g} N/kN, {:g} times the upper bound of label class A", least / kPerKilo, kLeastShare);
+  return fmt::format("the tires of class {} have a mean RRC of {:.2f} N/kN, {}: is the class right?",
+                     name_of(tire_class), mean_rrc / kPerKilo, limit);
+}
+
+std::optional<std::string> doubt_class_by_rrc(TireClass tire_class, double rrc, bool is_severe_snow) {
+  constexpr double kMostShare = 1.5;
+  const double limit = list_rrc_limits(tire_class, is_severe_snow).front().rrc;
+  if (rrc <= kMostShare * limit) return std::nullopt;
+  return fmt::format(
+      "an RRc of {:.4g} N/kN is more than {:g} times the limit of UN R117, stage 1, for class {}, {:g} N/kN: is the "
+      "class right?",
+      rrc / kPerKilo, kMostShare, name_of(tire_class), limit / kPerKilo);
 }
 
 double get_highest_laboratory_sd(TireClass tire_class) {

@@ -2,6 +2,7 @@
 /// The EU label's class of an RRc, and the limits of type approval.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,14 @@ struct RrcLimit {
 /// Source    UN Regulation No. 117, 02 series, 6.3.1 and 6.3.2, and Regulation (EC) 661/2009, Annex II, part B,
 ///           second-hand: not read. The 04 series has other limits; they could not be read and are not here
 std::vector<RrcLimit> list_rrc_limits(TireClass tire_class, bool is_severe_snow);
+
+/// A question about the class of tires whose mean RRc [N/N] is above the limit of stage 1, or below 0.6 times the upper
+/// bound of label class A; nothing where it is one of the class. Assumed: both, since sets of tires have a mean
+/// between.
+std::optional<std::string> doubt_class_by_mean(TireClass tire_class, double mean_rrc);
+
+/// The same about one tire, whose RRc [N/N] is above 1.5 times the limit of stage 1. Assumed: 1.5
+std::optional<std::string> doubt_class_by_rrc(TireClass tire_class, double rrc, bool is_severe_snow);
 
 /// Standard deviation of repeated measurements that a laboratory may have at most [N/N]: 0.075 N/kN for C1 and C2, 0.06
 /// N/kN for C3.

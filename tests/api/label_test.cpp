@@ -4,6 +4,8 @@
 #include <rollrig/vecto.h>
 
 #include <catch2/catch.hpp>
+#include <optional>
+#include <string>
 
 #include "tests/support/run_program.h"
 
@@ -91,6 +93,43 @@ TEST_CASE("the rolling resistance that the terms of a label cannot be found for 
   LabelInput of_tire;
   of_tire.tire = "a50";  // without [service_description]
   CHECK(find_refused_label(of_tire) == "--class");
+}
+
+TEST_CASE("an RRc far above the limit of its class asks whether the class is right", "[fast]") {
+  CHECK(make_label(make_label_input(11.9, "C3")).warnings.empty());
+  const TireLabel label = make_label(make_label_input(20.0, "C3"));
+  REQUIRE(label.warnings.size() == 1);
+  CHECK(label.warnings[0].find("class C3, 8 N/kN: is the class right?") != std::string::npos);
+  CHECK(label.text.find("an RRc of 20 N/kN") != std::string::npos);
+  CHECK(label.json.find("is the class right?") != std::string::npos);
+  rollrig::VectoTireInput input = make_vecto_input("c3_315_80r22_5");
+  CHECK(rollrig::make_vecto_tire(input).warnings.empty());
+  input.rrc_N_per_kN = 25.0;
+  const rollrig::VectoTireFile made = rollrig::make_vecto_tire(input);
+  REQUIRE(made.warnings.size() == 1);
+  CHECK(made.warnings[0].find("an RRc of 25 N/kN") != std::string::npos);
+}
+
+TEST_CASE("a text for VECTO that is given is not empty", "[fast]") {
+  const auto find_refused = [](std::optional<std::string> rollrig::VectoTireInput::*text, const char* given) {
+    rollrig::VectoTireInput input = make_vecto_input("c3_315_80r22_5");
+    input.rrc_N_per_kN = 5.5;
+    input.*text = given;
+    try {
+      rollrig::make_vecto_tire(input);
+    } catch (const rollrig::InputError& error) {
+      return error.problem().key;
+    }
+    return std::string();
+  };
+  using Input = rollrig::VectoTireInput;
+  CHECK(find_refused(&Input::manufacturer, "") == "--manufacturer");
+  CHECK(find_refused(&Input::manufacturer, " \t") == "--manufacturer");
+  CHECK(find_refused(&Input::model, "") == "--model");
+  CHECK(find_refused(&Input::certification_number, "") == "--certification-number");
+  CHECK(find_refused(&Input::date, "") == "--date");
+  CHECK(find_refused(&Input::dimension, "") == "--dimension");
+  CHECK(find_refused(&Input::model, "X").empty());
 }
 
 TEST_CASE("the tire of VECTO is that of the command, with RRc and load of the test", "[fast]") {

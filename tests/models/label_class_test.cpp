@@ -84,3 +84,20 @@ TEST_CASE("limits of type approval fall from stage to stage and rise for severe 
   CHECK(models::list_rrc_limits(TireClass::kC2, false)[0].rrc == Approx(10.5e-3));
   CHECK(models::list_rrc_limits(TireClass::kC3, false)[0].rrc == Approx(8.0e-3));
 }
+
+TEST_CASE("the class of tires is asked about by their mean RRc, and that of one by its RRc", "[fast]") {
+  struct Bounds {
+    TireClass tire_class;
+    double least, most, most_of_one;  // N/kN: 0.6 times class A, stage 1, 1.5 times stage 1; by hand
+  };
+  for (const Bounds& each : {Bounds{TireClass::kC1, 3.9, 12.0, 18.0}, Bounds{TireClass::kC2, 3.3, 10.5, 15.75},
+                             Bounds{TireClass::kC3, 2.4, 8.0, 12.0}}) {
+    CHECK(models::doubt_class_by_mean(each.tire_class, 1e-3 * (each.least - 0.01)).has_value());
+    CHECK_FALSE(models::doubt_class_by_mean(each.tire_class, 1e-3 * (each.least + 0.01)).has_value());
+    CHECK_FALSE(models::doubt_class_by_mean(each.tire_class, 1e-3 * (each.most - 0.01)).has_value());
+    CHECK(models::doubt_class_by_mean(each.tire_class, 1e-3 * (each.most + 0.01)).has_value());
+    CHECK_FALSE(models::doubt_class_by_rrc(each.tire_class, 1e-3 * (each.most_of_one - 0.01), false).has_value());
+    CHECK(models::doubt_class_by_rrc(each.tire_class, 1e-3 * (each.most_of_one + 0.01), false).has_value());
+    CHECK_FALSE(models::doubt_class_by_rrc(each.tire_class, 1e-3 * (each.most_of_one + 1.4), true).has_value());
+  }
+}
