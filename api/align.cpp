@@ -8,6 +8,7 @@
 
 #include "api/add_uncertainty.h"
 #include "estimation/alignment/alignment.h"
+#include "estimation/alignment/alignment_doubts.h"
 #include "estimation/alignment/alignment_uncertainty.h"
 #include "report/alignment_page.h"
 #include "sim/core/columns.h"
@@ -119,7 +120,11 @@ std::vector<report::ReportFile> list_alignment_inputs(const estimation::Alignmen
 Alignment align(const AlignmentInput& input, const UncertaintyOptions& uncertainty, const Progress& progress) {
   check_uncertainty(uncertainty);
   const auto file = std::make_shared<const estimation::AlignmentFile>(estimation::read_alignment_file(input));
-  const auto result = std::make_shared<const estimation::AlignmentResult>(estimation::align_machine(*file, input));
+  estimation::AlignmentResult aligned = estimation::align_machine(*file, input);
+  for (const std::string& doubt : estimation::list_date_doubts(*file, report::find_report_date())) {
+    aligned.warnings.push_back(doubt);
+  }
+  const auto result = std::make_shared<const estimation::AlignmentResult>(std::move(aligned));
   Alignment alignment;
   fill_numbers(*result, alignment);
   alignment.text = fmt::format("align   {}   classes {}\n", file->path, file->rules.classes) +

@@ -14,7 +14,7 @@ namespace rollrig::report {
 std::vector<Table> make_alignment_tables(const estimation::AlignmentFile& file,
                                          const estimation::AlignmentResult& result);
 
-/// "valid on 2027-02-08", and what it lacks.
+/// "valid on 2026-02-09", and what it lacks.
 std::string describe_alignment_verdict(const estimation::AlignmentResult& result);
 
 /// The chart of each control tire and their drift; none where there are no control tires.

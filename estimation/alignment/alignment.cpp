@@ -7,6 +7,7 @@
 #include <limits>
 #include <tuple>
 
+#include "estimation/alignment/alignment_doubts.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 
@@ -141,19 +142,23 @@ void require_rules(const AlignmentFile& file, const std::vector<AlignmentCheck>&
 void add_advice(const AlignmentFile& file, AlignmentResult& result) {
   const LineFit& fit = result.fit;
   const double p = static_cast<double>(fit.points.size());
+  constexpr double kLevel = 0.05;  // Assumed: of significance
+  const std::string level = fmt::format("p >= {:g}", kLevel);
   const auto advise = [&result](const std::string& name, const std::string& found, const std::string& limit,
                                 bool is_met) {
     result.checks.push_back({name, found, limit, "statistics; Assumed", is_met, false});
   };
   advise("scatter of tires about the line",
-         fmt::format("{:.3f} N/kN, by repeats {:.3f} (p = {:.2f})", fit.residual_sd, fit.repeat_sd, fit.lack_of_fit_p),
-         "p >= 0.05", fit.lack_of_fit_p >= 0.05);
+         fmt::format("{:.3f} N/kN, by repeats {:.3f} (p = {})", fit.residual_sd, fit.repeat_sd,
+                     show_probability(fit.lack_of_fit_p, kLevel)),
+         level, fit.lack_of_fit_p >= kLevel);
   const auto worst = std::max_element(fit.points.begin(), fit.points.end(),
                                       [](const auto& a, const auto& b) { return a.p_value > b.p_value; });
   const std::size_t index = static_cast<std::size_t>(worst - fit.points.begin());
   advise("largest residual",
-         fmt::format("tire '{}': {:+.3f} N/kN (p = {:.2f})", file.tires[index].name, worst->residual, worst->p_value),
-         "p >= 0.05", worst->p_value >= 0.05);
+         fmt::format("tire '{}': {:+.3f} N/kN (p = {})", file.tires[index].name, worst->residual,
+                     show_probability(worst->p_value, kLevel)),
+         level, worst->p_value >= kLevel);
   const auto far = std::max_element(fit.points.begin(), fit.points.end(),
                                     [](const auto& a, const auto& b) { return a.leverage < b.leverage; });
   advise("largest leverage",
@@ -258,6 +263,16 @@ void add_line_warnings(AlignmentResult& result) {
 
 }  // namespace
 
+std::string show_probability(double p, double level) {
+  constexpr int kFewestDigits = 2, kMostDigits = 17;
+  std::string text;
+  for (int digits = kFewestDigits; digits <= kMostDigits; ++digits) {
+    text = fmt::format("{:#.{}g}", p, digits);
+    if ((parse_number(text).value_or(p) < level) == (p < level)) break;
+  }
+  return text;
+}
+
 AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& input) {
   if (file.is_assigned && input.reference.has_value()) {
     throw InputError(
@@ -281,6 +296,7 @@ AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& i
   add_monitoring(file, result);
   judge_validity(file, input, result);
   add_line_warnings(result);
+  for (const std::string& doubt : list_value_doubts(file)) result.warnings.push_back(doubt);
   return result;
 }
 

@@ -36,7 +36,10 @@ struct AlignmentResult {
 /// Checked   tests/estimation/alignment_test.cpp
 AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& input);
 
-/// `rollrig-alignment/1`.
+/// A probability with two significant digits, with more where these would lie on the other side of the level: 0.0498,
+/// not 0.050, where the level is 0.05.
+std::string show_probability(double p, double level);
+
 /// A value in the range of the alignment tires, aligned, and the interval of 95 % of one measurement and of the mean of
 /// three.
 struct AlignedExample {
@@ -48,6 +51,7 @@ struct AlignedExample {
 /// Of the least, the middle and the greatest value of the alignment tires.
 std::vector<AlignedExample> list_aligned_examples(const AlignmentResult& result);
 
+/// `rollrig-alignment/1`.
 Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& result);
 /// The numbers of such a document that a later value needs.
 struct StoredAlignment {

@@ -23,7 +23,7 @@ struct AlignmentInput {
   std::optional<std::pair<double, double>> reference;  // A1, and B1 in N/kN; absent: 1 and 0
   bool preliminary = false;     // also a set of tires that breaks the rules for an alignment; it is then not valid
   bool first_excluded = false;  // the file already omits the first measurement of each tire, which is not used
-  std::string on;               // day on which validity is judged, "2026-03-02"; empty: that of the last row
+  std::string on;  // day on which validity is judged, "2026-03-02"; empty: that of the candidate's last row
   std::string machine_changed;  // day of the last significant change of the machine; empty: none
 };
 

@@ -1,5 +1,7 @@
 // rollrig align as a laboratory meets it: an alignment, its files, and values that it is applied to.
 #include <fmt/format.h>
+
+#include <array>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -163,6 +165,74 @@ TEST_CASE("measurements that are all copies of one another are doubted", "[fast]
   CHECK_THAT(flatten(run.out), Contains("all measurements of each tire are equal: real measurements scatter"));
 }
 
+TEST_CASE("values that are those of the reference machine are doubted in text, JSON and certificate", "[fast]") {
+  const TemporaryFolder folder;
+  std::string text = "tire,class,date,machine,rrc_N_per_kN\n", own = text;
+  const std::array<double, 4> scatter{0.07, -0.03, 0.02, 0.04};
+  for (const char* machine : {"drum_B", "drum_A"}) {
+    for (int repeat = 0; repeat < 4; ++repeat) {
+      for (int tire = 1; tire <= 5; ++tire) {
+        const double rrc = 5.5 + 1.01 * tire + scatter[static_cast<std::size_t>((repeat + tire) % 4)];
+        const bool is_candidate = std::string(machine) == "drum_B";
+        const std::string row =
+            fmt::format("T{0},C1,2025-0{1}-{2:02},{3},", tire, is_candidate ? 3 : 4, 7 * repeat + tire, machine);
+        text += fmt::format("{}{:.2f}\n", row, rrc);
+        own += fmt::format("{}{:.2f}\n", row, is_candidate ? 1.02 * rrc + 0.1 : rrc);
+      }
+    }
+  }
+  write_file(folder.file("copied.csv"), text);
+  write_file(folder.file("own.csv"), own);
+  const auto run = run_program(
+      "align copied.csv --reference-machine drum_A --reference 1 0 --json a.json --report a.html", folder.path());
+  INFO(run.out << run.err);
+  const std::string doubt = "15 of the 15 used values of machine 'drum_B' are equal to values of the same tire";
+  CHECK_THAT(flatten(run.out), Contains(doubt) && !Contains("same values"));
+  CHECK_THAT(json::parse(read_file(folder.file("a.json")))["warnings"].dump(), Contains(doubt));
+  CHECK_THAT(flatten(read_file(folder.file("a.html"))), Contains("15 of the 15 used values of machine"));
+  const auto other = run_program("align own.csv --reference-machine drum_A", folder.path());
+  CHECK_THAT(flatten(other.out), Contains("sigma_m of the machine") && !Contains("copied"));
+}
+
+TEST_CASE("dates after today are doubted, by the day more that clocks may be ahead", "[fast]") {
+  const TemporaryFolder folder;
+  write_file(folder.file("tires.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN"));
+  const auto align_on = [&](const char* epoch_s) {
+    return flatten(run_program("align tires.csv", folder.path(), std::string("SOURCE_DATE_EPOCH=") + epoch_s).out);
+  };
+  // The last measurements are those of 2026-06-05 and 2026-06-06.
+  CHECK_THAT(align_on("1780531200"),
+             Contains("1 measurement is dated after today, 2026-06-04, the last on 2026-06-06"));
+  CHECK_THAT(align_on("1780617600"), Contains("valid on 2026-06-06") && !Contains("after today"));
+  CHECK_THAT(align_on("1735689600"), Contains("20 measurements are dated after today, 2025-01-01"));
+  CHECK_THAT(align_on("253402300799"), Contains("valid on 2026-06-06") && !Contains("after today"));
+}
+
+TEST_CASE("tires whose class is hardly theirs are doubted", "[fast]") {
+  const TemporaryFolder folder;
+  const auto align_tires = [&](const char* tire_class, double least, double step) {
+    std::string text = "tire,class,date,rrc_N_per_kN,reference_N_per_kN\n";
+    for (int repeat = 1; repeat <= 4; ++repeat) {
+      for (int tire = 0; tire < 5; ++tire) {
+        const double truth = least + step * tire;
+        text += fmt::format("T{0},{1},2025-0{2}-0{3},{4:.3f},{5:.3f}\n", tire, tire_class, repeat, tire + 1,
+                            truth + 0.013 * repeat + 0.011 * ((tire + repeat) % 3), truth);
+      }
+    }
+    write_file(folder.file("tires.csv"), text);
+    const auto run = run_program("align tires.csv", folder.path());
+    INFO(run.err);
+    CHECK(run.status == 0);
+    return flatten(run.out);
+  };
+  CHECK_THAT(align_tires("C3", 6.1, 1.075),
+             Contains("the tires of class C3 have a mean RRC of") && Contains("above 8 N/kN, the limit of UN R117"));
+  CHECK_THAT(align_tires("C1", 15.0, 2.0), Contains("above 12 N/kN") && Contains("is the class right?"));
+  CHECK_THAT(align_tires("C1", 2.0, 0.825), Contains("below 3.9 N/kN, 0.6 times the upper bound of label class A"));
+  CHECK_THAT(align_tires("C3", 4.0, 0.8), !Contains("is the class right?"));
+  CHECK_THAT(align_tires("C2", 6.0, 1.0), !Contains("is the class right?"));
+}
+
 TEST_CASE("a value outside the tires, and one of an alignment that is not valid, have their warning", "[fast]") {
   const TemporaryFolder folder;
   write_file(folder.file("tires.csv"), make_alignment_csv(",reference_N_per_kN", "rrc_N_per_kN"));
@@ -201,7 +271,7 @@ TEST_CASE("the certificate has the numbers of the JSON, the hash of its file, an
   const json alignment = json::parse(read_file(folder.file("alignment.json")));
   const std::string A2 = std::to_string(alignment["line"]["A2"]["value"].get<double>()).substr(0, 5);
   CHECK_THAT(page, Contains("data-json=\"/line/A2/value\">" + A2) && Contains("Signature") &&
-                       Contains("data-json=\"/valid_until\">2028-"));
+                       Contains("data-json=\"/valid_until\">2027-"));
   CHECK_THAT(page, !Contains("<script"));
 }
 

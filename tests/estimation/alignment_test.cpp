@@ -1,4 +1,5 @@
 // The line of an alignment and what a value on it is worth: a published data set, closed forms, simulated laboratories.
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "estimation/alignment/alignment.h"
+#include "estimation/alignment/alignment_doubts.h"
 #include "estimation/alignment/alignment_rules.h"
 #include "estimation/alignment/line_fit.h"
 #include "sim/core/error.h"
@@ -70,6 +72,29 @@ Laboratories simulate(RandomStream& random, double sigma_m, double sigma_l, doub
                of_candidate.sd,
                of_candidate.degrees_of_freedom};
   return made;
+}
+
+/// Five tires, four rounds, each in a week of its own; two decimals by default.
+AlignmentFile make_measured_file(RandomStream& random, double step_N_per_kN = 0.01) {
+  AlignmentFile file;
+  file.rules = kRulesC1C2;
+  for (std::size_t i = 0; i < kTrue.size(); ++i) {
+    AlignmentTire tire;
+    tire.name = "T" + std::to_string(i + 1);
+    tire.tire_class = "C1";
+    for (int round = 0; round < 4; ++round) {
+      const double rrc = kTrue[i] + 0.04 * random.normal();
+      const double day_s = 86400.0 * (20000.0 + 7.0 * round + static_cast<double>(i));
+      tire.candidate.all.push_back({day_s, step_N_per_kN * std::round(rrc / step_N_per_kN), round > 0});
+    }
+    file.tires.push_back(tire);
+  }
+  return file;
+}
+
+bool is_in(const std::vector<std::string>& sentences, const std::string& words) {
+  return std::any_of(sentences.begin(), sentences.end(),
+                     [&words](const std::string& one) { return one.find(words) != std::string::npos; });
 }
 
 }  // namespace
@@ -214,4 +239,76 @@ TEST_CASE("an alignment is valid for two years to the day", "[fast]") {
     INFO(wrong);
     CHECK_THROWS_AS(read_day_s(wrong, "--on"), InputError);
   }
+}
+
+TEST_CASE("a round that has the values of an earlier one is doubted, whichever it is", "[fast]") {
+  RandomStream random(17, "copied round");
+  for (const auto& [from, to] : {std::pair<std::size_t, std::size_t>(0, 1), {0, 3}, {1, 3}, {2, 3}}) {
+    AlignmentFile file = make_measured_file(random, 0.001);
+    CHECK(list_value_doubts(file).empty());
+    for (AlignmentTire& tire : file.tires) tire.candidate.all[to].rrc_N_per_kN = tire.candidate.all[from].rrc_N_per_kN;
+    const std::vector<std::string> doubts = list_value_doubts(file);
+    INFO(from << " " << to);
+    REQUIRE(doubts.size() == 1);
+    CHECK(is_in(doubts, "5 tires have the same values on"));
+    CHECK(is_in(doubts, format_day(86400.0 * (20000.0 + 7.0 * static_cast<double>(from))) + " to "));
+    file.tires[2].candidate.all[to].rrc_N_per_kN += 0.01;
+    CHECK(list_value_doubts(file).empty());
+  }
+}
+
+TEST_CASE("a day that is copied is doubted although one tire has a measurement more", "[fast]") {
+  RandomStream random(18, "copied day");
+  AlignmentFile file = make_measured_file(random, 0.001);
+  for (AlignmentTire& tire : file.tires) {
+    for (std::size_t round = 0; round < 4; ++round) {
+      tire.candidate.all[round].time_s = 86400.0 * (20000.0 + 7.0 * static_cast<double>(round));
+    }
+    tire.candidate.all[3].rrc_N_per_kN = tire.candidate.all[1].rrc_N_per_kN;
+  }
+  std::vector<AlignmentMeasurement>& more = file.tires[0].candidate.all;
+  more.insert(more.begin() + 2, {86400.0 * 20010.0, 6.71, true});
+  CHECK(is_in(list_value_doubts(file), "5 tires have the same values on 2024-10-11 and on 2024-10-25"));
+}
+
+TEST_CASE("coarse values are equal by chance, and few of the sets that nobody copied are doubted", "[fast]") {
+  RandomStream random(19, "coarse");
+  for (const double step_N_per_kN : {0.001, 0.01, 0.02, 0.05, 0.1}) {
+    int doubted = 0;
+    constexpr int kTimes = 1000;
+    for (int i = 0; i < kTimes; ++i) {
+      AlignmentFile file = make_measured_file(random, step_N_per_kN);
+      const AlignmentFile other = make_measured_file(random, step_N_per_kN);
+      file.machine = "drum_B";
+      file.reference_machine = "drum_A";
+      for (std::size_t k = 0; k < file.tires.size(); ++k) file.tires[k].reference = other.tires[k].candidate;
+      doubted += list_value_doubts(file).empty() ? 0 : 1;
+    }
+    INFO(step_N_per_kN);
+    CHECK(doubted < kTimes / 25);
+  }
+}
+
+TEST_CASE("values of the reference machine under the candidate's name are doubted, also if one is changed", "[fast]") {
+  RandomStream random(20, "copied machine");
+  AlignmentFile file = make_measured_file(random, 0.001);
+  file.machine = "drum_B";
+  file.reference_machine = "drum_A";
+  for (AlignmentTire& tire : file.tires) tire.reference = tire.candidate;
+  CHECK(is_in(list_value_doubts(file), "15 of the 15 used values of machine 'drum_B' are equal"));
+  file.tires[3].candidate.all[2].rrc_N_per_kN += 0.37;
+  CHECK(is_in(list_value_doubts(file), "14 of the 15"));
+  for (AlignmentTire& tire : file.tires) {
+    for (AlignmentMeasurement& one : tire.candidate.all) one.rrc_N_per_kN *= 1.02;
+  }
+  CHECK_FALSE(is_in(list_value_doubts(file), "are equal"));
+}
+
+TEST_CASE("a probability is not shown on the other side of its level", "[fast]") {
+  CHECK(show_probability(0.048, 0.05) == "0.048");
+  CHECK(show_probability(0.0498, 0.05) == "0.0498");
+  CHECK(show_probability(0.05, 0.05) == "0.050");
+  CHECK(show_probability(0.4951, 0.05) == "0.50");
+  CHECK(show_probability(3.21e-7, 0.05) == "3.2e-07");
+  CHECK(show_probability(0.04999999, 0.05) == "0.04999999");
 }
