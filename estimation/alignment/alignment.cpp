@@ -150,14 +150,14 @@ void add_advice(const AlignmentFile& file, AlignmentResult& result) {
   };
   advise("scatter of tires about the line",
          fmt::format("{:.3f} N/kN, by repeats {:.3f} (p = {})", fit.residual_sd, fit.repeat_sd,
-                     show_probability(fit.lack_of_fit_p, kLevel)),
+                     format_p_value(fit.lack_of_fit_p, kLevel)),
          level, fit.lack_of_fit_p >= kLevel);
   const auto worst = std::max_element(fit.points.begin(), fit.points.end(),
                                       [](const auto& a, const auto& b) { return a.p_value > b.p_value; });
   const std::size_t index = static_cast<std::size_t>(worst - fit.points.begin());
   advise("largest residual",
          fmt::format("tire '{}': {:+.3f} N/kN (p = {})", file.tires[index].name, worst->residual,
-                     show_probability(worst->p_value, kLevel)),
+                     format_p_value(worst->p_value, kLevel)),
          level, worst->p_value >= kLevel);
   const auto far = std::max_element(fit.points.begin(), fit.points.end(),
                                     [](const auto& a, const auto& b) { return a.leverage < b.leverage; });
@@ -263,7 +263,7 @@ void add_line_warnings(AlignmentResult& result) {
 
 }  // namespace
 
-std::string show_probability(double p, double level) {
+std::string format_p_value(double p, double level) {
   constexpr int kFewestDigits = 2, kMostDigits = 17;
   std::string text;
   for (int digits = kFewestDigits; digits <= kMostDigits; ++digits) {

@@ -38,7 +38,7 @@ AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& i
 
 /// A probability with two significant digits, with more where these would lie on the other side of the level: 0.0498,
 /// not 0.050, where the level is 0.05.
-std::string show_probability(double p, double level);
+std::string format_p_value(double p, double level);
 
 /// A value in the range of the alignment tires, aligned, and the interval of 95 % of one measurement and of the mean of
 /// three.

@@ -84,9 +84,9 @@ std::optional<std::string> doubt_copied_machine(const AlignmentFile& file) {
   if (found < kCopiedShare * values) return std::nullopt;
   if (calc_binomial_tail(values, found_by_chance / values, found) > kCopiedMachineChance) return std::nullopt;
   return fmt::format(
-      "{:.0f} of the {:.0f} used values of machine '{}' are equal to values of the same tire on machine '{}': two "
-      "machines "
-      "differ. Were the values copied?",
+      "{:.0f} of the {:.0f} used values of machine '{}' are equal to values of the same tire on machine '{}': were "
+      "they "
+      "copied?",
       found, values, file.machine, file.reference_machine);
 }
 

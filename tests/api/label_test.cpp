@@ -111,7 +111,7 @@ TEST_CASE("an RRc far above the limit of its class asks whether the class is rig
 }
 
 TEST_CASE("a text for VECTO that is given is not empty", "[fast]") {
-  const auto find_refused = [](std::optional<std::string> rollrig::VectoTireInput::*text, const char* given) {
+  const auto find_refused_text = [](std::optional<std::string> rollrig::VectoTireInput::*text, const char* given) {
     rollrig::VectoTireInput input = make_vecto_input("c3_315_80r22_5");
     input.rrc_N_per_kN = 5.5;
     input.*text = given;
@@ -123,13 +123,13 @@ TEST_CASE("a text for VECTO that is given is not empty", "[fast]") {
     return std::string();
   };
   using Input = rollrig::VectoTireInput;
-  CHECK(find_refused(&Input::manufacturer, "") == "--manufacturer");
-  CHECK(find_refused(&Input::manufacturer, " \t") == "--manufacturer");
-  CHECK(find_refused(&Input::model, "") == "--model");
-  CHECK(find_refused(&Input::certification_number, "") == "--certification-number");
-  CHECK(find_refused(&Input::date, "") == "--date");
-  CHECK(find_refused(&Input::dimension, "") == "--dimension");
-  CHECK(find_refused(&Input::model, "X").empty());
+  CHECK(find_refused_text(&Input::manufacturer, "") == "--manufacturer");
+  CHECK(find_refused_text(&Input::manufacturer, " \t") == "--manufacturer");
+  CHECK(find_refused_text(&Input::model, "") == "--model");
+  CHECK(find_refused_text(&Input::certification_number, "") == "--certification-number");
+  CHECK(find_refused_text(&Input::date, "") == "--date");
+  CHECK(find_refused_text(&Input::dimension, "") == "--dimension");
+  CHECK(find_refused_text(&Input::model, "X").empty());
 }
 
 TEST_CASE("the tire of VECTO is that of the command, with RRc and load of the test", "[fast]") {

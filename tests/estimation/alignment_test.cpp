@@ -305,10 +305,10 @@ TEST_CASE("values of the reference machine under the candidate's name are doubte
 }
 
 TEST_CASE("a probability is not shown on the other side of its level", "[fast]") {
-  CHECK(show_probability(0.048, 0.05) == "0.048");
-  CHECK(show_probability(0.0498, 0.05) == "0.0498");
-  CHECK(show_probability(0.05, 0.05) == "0.050");
-  CHECK(show_probability(0.4951, 0.05) == "0.50");
-  CHECK(show_probability(3.21e-7, 0.05) == "3.2e-07");
-  CHECK(show_probability(0.04999999, 0.05) == "0.04999999");
+  CHECK(format_p_value(0.048, 0.05) == "0.048");
+  CHECK(format_p_value(0.0498, 0.05) == "0.0498");
+  CHECK(format_p_value(0.05, 0.05) == "0.050");
+  CHECK(format_p_value(0.4951, 0.05) == "0.50");
+  CHECK(format_p_value(3.21e-7, 0.05) == "3.2e-07");
+  CHECK(format_p_value(0.04999999, 0.05) == "0.04999999");
 }
