@@ -107,7 +107,8 @@ async function checkDrop() {
   await checkNoNumber();
   await page.until("document.querySelector('#confirm:enabled')");
   const told = await page.evaluate("document.querySelector('.setbench').textContent");
-  check(!/--[a-z]/.test(told), 'no option of the command line is named');
+  const option = /.{0,40}(?<!-)--[a-z].{0,40}/.exec(told);
+  check(!option, `no option of the command line is named: ${option ?? ''}`);
   await checkBoxes('columns of a dropped folder');
   await page.click('#confirm');
   await page.until("document.querySelector('#diagnose')");

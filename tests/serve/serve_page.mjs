@@ -38,7 +38,10 @@ export class ServePage {
     await this.chromium.open();
     await this.setSize(this.width, this.height);
     await this.chromium.send('Page.navigate', { url: address });
-    await this.until("document.documentElement?.dataset.ready === 'yes' && document.querySelectorAll('.times svg path').length > 5");
+    await this.until("document.documentElement?.dataset.ready === 'yes' && document.querySelector('.times')");
+    await this.evaluate("document.querySelector('.times').scrollIntoView()"); // charts are drawn near the window
+    await this.until("document.querySelectorAll('.times svg path').length > 5");
+    await this.evaluate('window.scrollTo(0, 0)');
   }
 
   setSize(width, height) {
