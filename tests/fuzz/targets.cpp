@@ -260,9 +260,9 @@ std::vector<Target> make_targets() {
   targets.push_back(make_table_target("mat", "log.mat"));
   targets.push_back(make_table_target("hdf5", "log.h5"));
   targets.push_back(make_table_target("mdf4", "log.mf4"));
+  targets.push_back(make_direct_target("mdf4_direct", "log.mf4", tables::read_mdf4));
   targets.push_back(make_direct_target("mat_direct", "log.mat", tables::read_mat));
   targets.push_back(make_direct_target("hdf5_direct", "log.h5", tables::read_hdf5));
-  targets.push_back(make_direct_target("mdf4_direct", "log.mf4", tables::read_mdf4));
   return targets;
 }
 
