@@ -24,7 +24,7 @@ Channel make_channel(const Quantity& quantity, std::vector<double> values_SI);
 inline FolderFiles to_folder(const std::map<std::string, std::string>& files) { return {files.begin(), files.end()}; }
 
 /// What import_logs() does with a mapping that has been read.
-Report import_by_mapping(const measurements::Mapping& mapping, BadRows bad_rows);
+Report import_by_mapping(const measurements::Mapping& mapping, BadRows bad_rows, const Progress& progress);
 
 /// Whether a text names a file, and not an asset or a scenario: it has a '/', or ends in .toml.
 bool is_file_name(const std::string& text);

@@ -56,12 +56,14 @@ std::string format_import(const measurements::Mapping& mapping, const measuremen
 
 }  // namespace
 
-Report import_logs(const std::string& mapping_file, const std::string& data, BadRows bad_rows) {
-  return import_by_mapping(measurements::read_mapping(mapping_file, data), bad_rows);
+Report import_logs(const std::string& mapping_file, const std::string& data, BadRows bad_rows,
+                   const Progress& progress) {
+  return import_by_mapping(measurements::read_mapping(mapping_file, data), bad_rows, progress);
 }
 
-Report import_by_mapping(const measurements::Mapping& mapping, BadRows bad_rows) {
-  const auto imported = std::make_shared<const measurements::Import>(measurements::import_logs(mapping, bad_rows));
+Report import_by_mapping(const measurements::Mapping& mapping, BadRows bad_rows, const Progress& progress) {
+  const auto imported =
+      std::make_shared<const measurements::Import>(measurements::import_logs(mapping, bad_rows, progress));
   Report report;
   report.text = format_import(mapping, *imported);
   report.json = to_text(measurements::make_import_json(mapping, *imported));

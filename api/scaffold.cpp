@@ -166,9 +166,10 @@ NewFiles guess_set(const GuessOptions& options, const std::string& folder) {
                            make_guess_json(guess), files);
 }
 
-NewFiles import_guessed(const GuessOptions& options, const std::string& folder, BadRows bad_rows) {
+NewFiles import_guessed(const GuessOptions& options, const std::string& folder, BadRows bad_rows,
+                        const Progress& progress) {
   const measurements::Guess guess = measurements::guess_logs(options);
-  const Report imported = import_by_mapping(read_guessed_mapping(guess), bad_rows);
+  const Report imported = import_by_mapping(read_guessed_mapping(guess), bad_rows, progress);
   FolderFiles files = imported.make_files();
   files.emplace_back(kMappingName, measurements::write_guessed_mapping(guess, folder));
   Json json = Json::parse(imported.json);

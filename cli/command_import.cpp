@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/output_files.h"
+#include "cli/progress.h"
 #include "rollrig/measurement_set.h"
 #include "rollrig/scaffold.h"
 #include "sim/core/columns.h"
@@ -22,8 +23,9 @@ struct ImportOptions {
 
 /// What rollrig validate says of the set: a column that was taken over without its unit shows there.
 std::string format_checks(const std::string& folder) {
+  ProgressLine progress("import", false);
   try {
-    return format_warnings(check_file(folder).warnings);
+    return format_warnings(check_file(folder, BadRows::kRefuse, progress.callback()).warnings);
   } catch (const InputError& error) {
     return "  " + format_error("warning: ", error.problem());
   } catch (const RunFailure& failure) {
@@ -40,8 +42,9 @@ Report read_and_import(const ImportOptions& options) {
     throw usage_error(is_guess ? "a mapping and --guess do not go together" : "no mapping is given", "mapping",
                       options.mapping, "a mapping file (.toml), or --guess FOLDER");
   }
-  return is_guess ? import_guessed(options.guess, options.output.folder, options.bad_rows)
-                  : import_logs(options.mapping, options.data, options.bad_rows);
+  ProgressLine progress("import", options.output.quiet);
+  return is_guess ? import_guessed(options.guess, options.output.folder, options.bad_rows, progress.callback())
+                  : import_logs(options.mapping, options.data, options.bad_rows, progress.callback());
 }
 
 int import_command(const ImportOptions& options) {

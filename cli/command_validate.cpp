@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/message.h"
 #include "cli/output_files.h"
+#include "cli/progress.h"
 #include "rollrig/measurement_set.h"
 #include "sim/core/error.h"
 #include "sim/core/interrupt.h"
@@ -35,14 +36,22 @@ std::vector<std::string> list_files(const std::vector<std::string>& paths) {
 /// differs. A set that is merely warned of is good.
 int validate_command(const ValidateOptions& options) {
   int status = kDone;
-  for (const std::string& path : list_files(options.paths)) {
+  const std::vector<std::string> paths = list_files(options.paths);
+  ProgressLine line("validate", false);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
     throw_if_interrupted();
+    const std::string& path = paths[i];
+    const auto report = [&](double share, const std::string& stage) {
+      line.update((static_cast<double>(i) + share) / static_cast<double>(paths.size()), stage);
+    };
     try {
-      const FileCheck found = check_file(path, options.bad_rows);
+      const FileCheck found = check_file(path, options.bad_rows, report);
+      line.clear();
       std::cout << wrap_message(fmt::format("{}: {} {}", path, found.is_good ? "good" : "doubtful", found.what));
       for (const std::string& warning : found.warnings) std::cout << wrap(warning, 2);
       if (!found.is_good) status = std::max<int>(status, kDiffers);
     } catch (const InputError& error) {  // of one file: the others are checked as well
+      line.clear();
       std::cout << std::flush;
       std::cerr << format_error("error: ", error.problem());
       status = kInputError;

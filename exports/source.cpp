@@ -99,7 +99,7 @@ Group read_set(const std::string& path, BadRows bad_rows, std::vector<std::strin
     throw_if_interrupted();
     runs.add(set.runs[i].id, {make_run(*tables[i].as_table(), set.runs[i])});
   }
-  tree.add("runs", {runs});
+  tree.add("runs", {std::move(runs)});
   const Json left_out = measurements::make_bad_rows_json(set);
   if (!left_out.empty()) tree.add("bad_rows", make_node(left_out));
   if (warnings != nullptr) *warnings = measurements::describe_bad_rows(set);

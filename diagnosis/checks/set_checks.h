@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnosis/checks/stuck_sensors.h"
+#include "include/rollrig/progress.h"
 #include "measurements/measurement_set.h"
 
 namespace rollrig::diagnosis {
@@ -32,7 +33,7 @@ struct SetChecks {
 /// Errors    InputError: nothing measured; a sensor without noise, or with less than any has (find_least_noise); every
 ///           sensor stuck; a run that cannot be simulated
 /// Checked   tests/diagnosis/set_checks_test.cpp
-SetChecks check_set(const measurements::MeasurementSet& set, int threads = 0);
+SetChecks check_set(const measurements::MeasurementSet& set, int threads = 0, const Progress& progress = {});
 
 /// The set without the samples of those rows.
 measurements::MeasurementSet leave_out(measurements::MeasurementSet set, const std::vector<DoubtfulRows>& rows);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bad_rows.h"
+#include "progress.h"
 #include "result.h"
 
 #pragma GCC visibility push(default)
@@ -57,13 +58,14 @@ class MeasurementSet {
 /// Looks at a file of any format of rollrig, at a cycle's CSV, or at the folder of a set. A set is held against the
 /// simulation as well, since exchanged columns and wrong units are in no single number.
 /// Errors  InputError: the file is wrong; RunFailure: a set cannot be simulated
-FileCheck check_file(const std::string& path, BadRows bad_rows = BadRows::kRefuse);
+FileCheck check_file(const std::string& path, BadRows bad_rows = BadRows::kRefuse, const Progress& progress = {});
 
 /// Joins a torque log and a tire log, each on a clock of its own, into a measurement set (docs/import.md). `mapping` is
 /// a .toml file, `data` the folder of the logs, empty: that of the mapping. The report has the files of the set, with
 /// import.json and marks.csv beside them, and no page.
 /// Errors  InputError: a wrong mapping or log; clocks that cannot be found
-Report import_logs(const std::string& mapping, const std::string& data = "", BadRows bad_rows = BadRows::kRefuse);
+Report import_logs(const std::string& mapping, const std::string& data = "", BadRows bad_rows = BadRows::kRefuse,
+                   const Progress& progress = {});
 
 /// Folders right in `folder` that are sets, sorted by name; none where `folder` is a set itself.
 std::vector<std::string> find_sets(const std::string& folder);

@@ -39,7 +39,8 @@ NewFiles guess_set(const GuessOptions& options, const std::string& folder);
 
 /// The set that import_logs() makes by such a mapping, and the mapping as import.toml beside it. `folder` is that of
 /// the set.
-NewFiles import_guessed(const GuessOptions& options, const std::string& folder, BadRows bad_rows = BadRows::kRefuse);
+NewFiles import_guessed(const GuessOptions& options, const std::string& folder, BadRows bad_rows = BadRows::kRefuse,
+                        const Progress& progress = {});
 
 }  // namespace rollrig
 #pragma GCC visibility pop

@@ -198,10 +198,9 @@ ClockEstimate estimate_clock(const Log& torque_log, const Log& tire_log, const M
   estimate.searched_from_s = prior.center_s - prior.half_width_s;
   estimate.searched_to_s = prior.center_s + prior.half_width_s;
   std::string objection = "the logs have nothing in common";
-  const std::vector<Tie> common = make_common_ties(torque_log, tire_log, mapping);
-  const std::vector<Tie> responses = make_response_ties(torque_log, tire_log, mapping);
   for (const bool is_response : {false, true}) {
-    const std::vector<Tie>& ties = is_response ? responses : common;
+    const std::vector<Tie> ties = is_response ? make_response_ties(torque_log, tire_log, mapping)
+                                              : make_common_ties(torque_log, tire_log, mapping);
     if (ties.empty()) continue;
     const ClockPeak peak = search_clock(ties, prior);
     objection = judge_peak(peak, ties, prior, plan);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "include/rollrig/progress.h"
 #include "measurements/logs/resample.h"
 #include "sim/core/json.h"
 
@@ -28,10 +29,9 @@ struct Import {
 /// Reads the logs, finds the clocks (one for each pair of files), resamples.
 /// Source   thesis B.1: torque and temperature are logged apart, by their own clocks, and are to be synchronized
 /// Errors   InputError, see read_log, estimate_clock, resample_run; bad rows of all logs are in one error, or marked
-/// and
-///          left out where they are at most 5 % of a log (Assumed)
+///          and left out where they are at most 5 % of a log (Assumed)
 /// Checked  tests/measurements/logs/import_test.cpp
-Import import_logs(const Mapping& mapping, BadRows bad_rows = BadRows::kRefuse);
+Import import_logs(const Mapping& mapping, BadRows bad_rows = BadRows::kRefuse, const Progress& progress = {});
 
 /// set.toml, tire.toml, rig.toml or vehicle.toml, a CSV a run; marks.csv and import.json beside them.
 std::map<std::string, std::string> make_set_files(const Mapping& mapping, const Import& imported);

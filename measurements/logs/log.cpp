@@ -11,6 +11,7 @@
 #include <boost/algorithm/string/trim.hpp>
 
 #include "measurements/logs/file_units.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/text.h"
 
 namespace rollrig::measurements {
@@ -74,13 +75,13 @@ std::vector<double> read_numeric_times(const LogForm& form, const CsvTable& csv,
 std::vector<double> read_written_times(const LogForm& form, const CsvTable& csv, Log& log, RowProblems& problems) {
   const std::vector<std::string> stamps = csv.text(form.time.column);
   const bool has_dates = !form.time.date_column.empty();
-  const std::vector<std::string> dates =
-      has_dates ? csv.text(form.time.date_column) : std::vector<std::string>(stamps.size(), form.time.date);
+  const std::vector<std::string> dates = has_dates ? csv.text(form.time.date_column) : std::vector<std::string>();
   StampReader reader(form.time);
   std::vector<double> times;
   for (std::size_t row = 0; row < stamps.size(); ++row) {
     try {
-      times.push_back(reader.read(boost::algorithm::trim_copy(stamps[row]), boost::algorithm::trim_copy(dates[row])));
+      const std::string date = boost::algorithm::trim_copy(has_dates ? dates[row] : form.time.date);
+      times.push_back(reader.read(boost::algorithm::trim_copy(stamps[row]), date));
     } catch (const std::invalid_argument& error) {
       times.push_back(std::numeric_limits<double>::quiet_NaN());
       problems.push_back(csv.cell_error(row, form.time.column,
@@ -159,10 +160,8 @@ void read_column(const LogColumn& column, const LogForm& form, const CsvTable& c
   std::size_t count = 0;
   for (std::size_t row = 0; row < values.size(); ++row) {
     double& value = values[row];
-    const int line = log.line[row];
-    Mark mark{log.file, line, column.target, log.time_s[row], log.time_s[row], std::nullopt, "no value"};
-    if (bad.count(line) > 0) mark.reason = "bad field";
-    if (!std::isnan(value)) {
+    const bool is_there = !std::isnan(value);
+    if (is_there) {
       ++count;
       value = target.from_si(column.unit.to_si(value * column.factor + column.offset));
       if (value != 0.0 && std::abs(value) <= column.dead_band) {
@@ -171,10 +170,11 @@ void read_column(const LogColumn& column, const LogForm& form, const CsvTable& c
       }
       if (column.allowed.contains(value)) continue;
       outside.push_back(row);
-      mark.value = value;
-      mark.reason = "out of range";
     }
-    log.marks.push_back(mark);
+    const int line = log.line[row];
+    const char* reason = is_there ? "out of range" : bad.count(line) > 0 ? "bad field" : "no value";
+    log.marks.push_back({log.file, line, column.target, log.time_s[row], log.time_s[row],
+                         is_there ? std::optional<double>(value) : std::nullopt, reason});
   }
   check_range(column, log, outside, values, count);
   for (const std::size_t row : outside) values[row] = std::numeric_limits<double>::quiet_NaN();
@@ -202,18 +202,27 @@ void mark_gaps(Log& log) {
 
 }  // namespace
 
-Log read_log(const LogForm& form, const std::string& path, RowProblems* problems) {
+Log read_log(const LogForm& form, const std::string& path, RowProblems* problems,
+             const std::function<void(double)>& report) {
+  // Assumed: shares of the time, as measured with logs of 100 MB.
+  constexpr double kSplit = 0.25, kTimesRead = 0.75;
+  const auto report_share = [&report](double share) {
+    throw_if_interrupted();
+    if (report) report(share);
+  };
   RowProblems found;
   const tables::LogTable table = tables::read_log_table(path, form.csv, form.time.column, &found);
   require_units(form, table);
   const CsvTable& csv = table.rows;
+  report_share(kSplit);
   Log log;
   log.file = path;
   log.form = form.name;
   const std::vector<std::size_t> kept = read_times(form, csv, log, found);
   mark_bad_rows(found, log);
-  for (const LogColumn& column : form.columns) {
-    if (!column.constant_SI.has_value()) read_column(column, form, csv, kept, log, found);
+  for (std::size_t i = 0; i < form.columns.size(); ++i) {
+    report_share(kTimesRead + (1.0 - kTimesRead) * static_cast<double>(i) / static_cast<double>(form.columns.size()));
+    if (!form.columns[i].constant_SI.has_value()) read_column(form.columns[i], form, csv, kept, log, found);
   }
   if (!found.empty() && problems == nullptr) {
     throw make_rows_error(format_count(count_rows(found), "bad row"), found, "", form.csv.hint);

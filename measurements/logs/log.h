@@ -1,6 +1,7 @@
 #pragma once
 /// One file of a logger: times in seconds, columns of the set in SI units.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,9 +40,10 @@ struct Log {
 /// Reads a file as the mapping says; what is out of range is marked and left out, as are empty cells and gaps.
 /// Errors   InputError: a column that is not there, a cell that is no number, a stamp that is none, times that do not
 ///          increase, a column of which more than 1 % is out of range. With `problems`, rows and fields that are wrong
-///          are noted there, and marked and left out
+///          are noted there, and marked and left out. `report` is called with the share of the reading that is done
 /// Checked  tests/measurements/logs/log_test.cpp
-Log read_log(const LogForm& form, const std::string& path, RowProblems* problems = nullptr);
+Log read_log(const LogForm& form, const std::string& path, RowProblems* problems = nullptr,
+             const std::function<void(double)>& report = {});
 
 /// A time of the log's clock as a mapping writes it (`from`, `to`). Throws InputError at `origin`.
 double parse_log_time(const LogForm& form, const Log& log, const std::string& text, const std::string& key,

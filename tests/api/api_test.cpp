@@ -177,6 +177,26 @@ TEST_CASE("two logs give a set that can be read, the same as from the command li
   CHECK_THROWS_AS(rollrig::import_logs(mapping, folder.file("told")), rollrig::InputError);  // no log is there
 }
 
+TEST_CASE("an import and the check of a set say how far they are, so that their time can be told", "[fast]") {
+  const auto require_shares = [](const std::vector<double>& shares) {
+    REQUIRE(shares.size() >= 4);  // after each of them, the time of the rest is known better
+    CHECK(std::is_sorted(shares.begin(), shares.end()));
+    CHECK(shares.front() >= 0.0);
+    CHECK(shares.back() > 0.5);
+    CHECK(shares.back() <= 1.0);
+  };
+  std::vector<double> shares;
+  const auto note = [&shares](double done, const std::string&) { shares.push_back(done); };
+  const rollrig::Report imported = rollrig::import_logs(ROLLRIG_SOURCE_DIR "/assets/examples/logs/import.toml", "",
+                                                        rollrig::BadRows::kRefuse, note);
+  require_shares(shares);
+  const TemporaryFolder folder;
+  rollrig::write_folder(folder.file("joined"), imported.make_files());
+  shares.clear();
+  rollrig::check_file(folder.file("joined"), rollrig::BadRows::kRefuse, note);
+  require_shares(shares);
+}
+
 TEST_CASE("a process that is asked to stop does, until that is taken back", "[fast]") {
   const rollrig::Run run(make_input("iso_28580"));
   rollrig::request_interrupt();
