@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "measurements/measurement_set.h"
 #include "measurements/sensor_file.h"
 #include "sim/core/assets.h"
@@ -121,6 +123,14 @@ Fidelity read_fidelity(TableReader& reader, const Scenario& scenario) {
                        fmt::format("{}", fmt::join(allowed, " or ")));
 }
 
+/// Up to 2^53, which is more than an int holds: seeds of a campaign's items have 53 bits.
+std::uint64_t read_seed(TableReader& reader) {
+  const Field field{"seed", between(0.0, 9007199254740991.0), "random seed", 1.0};
+  const double seed = reader.number(field);
+  if (seed == std::floor(seed)) return static_cast<std::uint64_t>(seed);
+  throw reader.problem(field.key, "'seed' must be a whole number", "a number " + field.range.to_string());
+}
+
 }  // namespace
 
 const char* name_of(Fidelity fidelity) { return fidelity == Fidelity::kMultibody ? "multibody" : "quasi_static"; }
@@ -173,7 +183,7 @@ RunSpec read_run_spec(const ConfigTable& table, const std::string& base_folder) 
   spec.fidelity = read_fidelity(reader, *spec.scenario);
   const bool is_combined = reader.text_or("baseline", "combined", {"combined", "constant_rrc"}) == "combined";
   spec.baseline = is_combined ? models::Baseline::kCombined : models::Baseline::kConstantRrc;
-  spec.seed = static_cast<std::uint64_t>(reader.count({"seed", between(0.0, 9007199254740991.0), "random seed", 1.0}));
+  spec.seed = read_seed(reader);
   spec.sample_interval_s = reader.number({"sample_interval_s", between(0.01, 60.0), "between rows", 1.0});
   spec.tolerance_factor = reader.number({"tolerance_factor", between(1e-3, 1e3), "on all tolerances", 1.0});
   spec.sensors = read_run_sensors(reader, base_folder, spec);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <boost/algorithm/string/join.hpp>
@@ -116,6 +117,10 @@ int TableReader::count(const Field& field) {
   const double value = number(field);
   if (value != std::floor(value)) {
     throw problem(field.key, fmt::format("'{}' must be a whole number", field.key), allowed_number(field));
+  }
+  constexpr int kMost = std::numeric_limits<int>::max();
+  if (std::abs(value) > kMost) {
+    throw problem(field.key, fmt::format("'{}' is too large", field.key), fmt::format("at most {}", kMost));
   }
   return static_cast<int>(value);
 }

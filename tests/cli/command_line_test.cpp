@@ -159,6 +159,7 @@ TEST_CASE("settings, tire and rig values, effects and sensors can be set", "[fas
   CHECK(rrc("--set effects.load_exponent.exponent=1.1") > plain);
   CHECK(rrc("--set effects.bearing_warmup.fall_per_K=0.02") == Approx(plain).epsilon(0.02));
   CHECK(rrc("--sensors source --seed 2") != plain);
+  CHECK(rrc("--sensors source --seed 357058000000000") != rrc("--sensors source --seed 8223680000000000"));
   CHECK(rrc("--sensors none") == plain);
 }
 

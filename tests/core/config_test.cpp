@@ -116,3 +116,11 @@ TEST_CASE("a config that is too deep is refused, wherever it is deep", "[fast]")
   CHECK_THROWS_WITH(set_config_value(root, "a", std::string(5000, '['), "command line"),
                     Catch::Contains("nested too deeply"));
 }
+
+TEST_CASE("a whole number beyond those of the machine is refused", "[fast]") {
+  const ConfigTable table = parse_config("small = 2147483647\nlarge = 2147483648\nnegative = -1e300\n", "a.toml");
+  TableReader reader(table, "");
+  CHECK(reader.count({"small", any_number(), ""}) == 2147483647);
+  CHECK_THROWS_AS(reader.count({"large", any_number(), ""}), InputError);
+  CHECK_THROWS_AS(reader.count({"negative", any_number(), ""}), InputError);
+}
