@@ -187,8 +187,8 @@ TEST_CASE("an import and the check of a set say how far they are, so that their 
   };
   std::vector<double> shares;
   const auto note = [&shares](double done, const std::string&) { shares.push_back(done); };
-  const rollrig::Report imported = rollrig::import_logs(ROLLRIG_SOURCE_DIR "/assets/examples/logs/import.toml", "",
-                                                        rollrig::BadRows::kRefuse, note);
+  const rollrig::Report imported =
+      rollrig::import_logs(ROLLRIG_SOURCE_DIR "/assets/examples/logs/import.toml", "", rollrig::BadRows::kRefuse, note);
   require_shares(shares);
   const TemporaryFolder folder;
   rollrig::write_folder(folder.file("joined"), imported.make_files());
