@@ -92,6 +92,23 @@ std::size_t count_rows(const std::string& place, const std::vector<GroupComparis
   return 0;
 }
 
+/// "at different loads: a 5.6 kN, b 6.9 kN" of the phase of a place; empty where the loads are the same.
+std::string describe_loads_at(const std::string& place, const std::vector<GroupComparison>& groups,
+                              const std::vector<std::string>& names) {
+  for (const GroupComparison& group : groups) {
+    for (const RunPhase& phase : group.phases(0)) {
+      if (place != group.name_place(phase)) continue;
+      const std::vector<std::string> loads = group.list_loads(phase);
+      std::vector<std::string> of_sets;
+      for (std::size_t i = 0; i < loads.size(); ++i) {
+        if (!loads[i].empty()) of_sets.push_back(fmt::format("{} {}", names[i], loads[i]));
+      }
+      return of_sets.empty() ? "" : fmt::format("at different loads: {}", fmt::join(of_sets, ", "));
+    }
+  }
+  return "";
+}
+
 /// The force channel in the longest phase, less skim where a run has one; none where nothing is compared.
 std::optional<std::size_t> find_main_mean(const std::vector<ComparedValue>& values, const Quantity& force,
                                           const std::vector<GroupComparison>& groups) {
@@ -152,6 +169,8 @@ Compared compare_sets(const std::vector<MeasurementSet>& sets, const std::vector
   const std::optional<std::size_t> main = find_main_mean(comparison.values, sets.front().kind->traits.force, of_groups);
   if (main.has_value()) {
     choose_main(*main, compared);
+    const std::string loads = describe_loads_at(comparison.values[*main].place, of_groups, names);
+    if (!loads.empty()) comparison.message += ", " + loads;
   } else {
     comparison.message = "no run of one set belongs to a run of another";
   }

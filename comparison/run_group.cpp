@@ -106,6 +106,28 @@ std::string drop_load(const std::string& name) {
   return at == std::string::npos ? name : name.substr(0, at + kUnit.size());
 }
 
+/// The load in the name of a phase: "5.4 kN" of "80 km/h 5.4 kN"; empty where it has none.
+std::string find_load(const std::string& name) {
+  const std::size_t end = drop_load(name).size();
+  return end + 1 < name.size() ? name.substr(end + 1) : "";
+}
+
+/// "5.4 and 6.9 kN" of loads, each once; an empty one is left out.
+std::string join_loads(const std::vector<std::string>& loads) {
+  std::vector<std::string> different;
+  for (const std::string& load : loads) {
+    if (load.empty() || std::find(different.begin(), different.end(), load) != different.end()) continue;
+    different.push_back(load);
+  }
+  constexpr std::string_view kUnit = " kN";
+  for (std::size_t i = 0; i + 1 < different.size(); ++i) {
+    std::string& load = different[i];
+    const bool has_unit = load.size() > kUnit.size() && load.compare(load.size() - kUnit.size(), 3, kUnit) == 0;
+    if (has_unit) load.erase(load.size() - kUnit.size());
+  }
+  return fmt::format("{}", fmt::join(different, " and "));
+}
+
 /// Phases of one list whose name is not in another list; the key of each is its name without the load.
 std::map<std::string, std::vector<std::size_t>> list_alone(const std::vector<RunPhase>& phases,
                                                            const std::vector<RunPhase>& others) {
@@ -165,7 +187,23 @@ std::vector<std::string> GroupComparison::describe_loads(const std::vector<std::
 }
 
 std::string GroupComparison::name_place(const RunPhase& phase) const {
-  return fmt::format("{}, {}", run(0).id, phase.name);
+  const std::vector<std::string> loads = list_loads(phase);
+  if (loads.empty()) return fmt::format("{}, {}", run(0).id, phase.name);
+  return fmt::format("{}, {}, {}", run(0).id, drop_load(phase.name), join_loads(loads));
+}
+
+std::vector<std::string> GroupComparison::list_loads(const RunPhase& phase) const {
+  std::vector<std::string> loads{find_load(phase.name)};
+  bool differ = false;
+  for (std::size_t i = 1; i < phases_.size(); ++i) {
+    const RenamedPhases& renamed = renamed_[i];
+    const auto own =
+        std::find_if(renamed.begin(), renamed.end(), [&](const auto& one) { return one.second == phase.name; });
+    differ = differ || own != renamed.end();
+    const bool is_there = find_phase(phases_[i], phase.name) != nullptr;
+    loads.push_back(own != renamed.end() ? find_load(own->first) : is_there ? loads.front() : "");
+  }
+  return differ ? loads : std::vector<std::string>();
 }
 
 void GroupComparison::add_values(Comparison& comparison) const {

@@ -44,8 +44,10 @@ class GroupComparison {
   const std::vector<diagnosis::RunPhase>& phases(std::size_t set) const { return phases_[set]; }
   /// Which phases are compared though their loads differ, a sentence each; `names` are those of the sets.
   std::vector<std::string> describe_loads(const std::vector<std::string>& names) const;
-  /// "warm-up, 80 km/h 5.4 kN" of a phase of the reference.
+  /// "warm-up, 80 km/h 5.4 kN" of a phase of the reference; "warm-up, 80 km/h, 5.4 and 6.9 kN" where loads differ.
   std::string name_place(const diagnosis::RunPhase& phase) const;
+  /// "5.4 kN" of each set in a phase of the reference, empty for a set without it; nothing where all have one load.
+  std::vector<std::string> list_loads(const diagnosis::RunPhase& phase) const;
 
   /// A value for each channel and phase of the reference that another run has as well, and of the force channel that
   /// less skim: the zero of the sensor cancels, and the loss of the machine.

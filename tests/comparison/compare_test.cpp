@@ -142,6 +142,9 @@ TEST_CASE("sets of different loads are compared in their loaded phases", "[fast]
   CHECK(torque["differences"][0]["percent"].get<double>() == Approx(by_load_percent).epsilon(0.3));
   CHECK_THAT(comparison["warnings"].dump(), Contains("the loads differ"));
   CHECK_FALSE(comparison["warnings"].dump().find("the phases differ") != std::string::npos);
+  // Neither the place of the value nor the sentence says the load of one set for both.
+  CHECK_THAT(torque["place"].get<std::string>(), Contains("80 km/h, 6.9 and 4.0 kN"));
+  CHECK_THAT(comparison["message"].get<std::string>(), Contains("at different loads: heavy 6.9 kN, light 4.0 kN"));
 }
 
 TEST_CASE("bars of a comparison show no quantity twice", "[fast]") {
