@@ -49,6 +49,9 @@ struct Settings : CycleSettings {
   }
 };
 
+/// Assumed: more than tires of class C1 lack after the standard's warm-up.
+constexpr double kTooShort = 0.02;
+
 struct Results {
   Cycle cycle;  // the measurement: the last cycle, which is the warm-up's own end when no measurement cycle follows
   std::string method;
@@ -119,12 +122,21 @@ struct Results {
     return tire_file_rrc.has_value() ? std::optional(corrected_rrc / *tire_file_rrc - 1.0) : std::nullopt;
   }
 
+  /// Of a tire that has not settled, how far its value is from that in steady state.
+  std::string describe_unsettled() const {
+    if (cycle.is_settling_unknown) return " The tire has not settled: its value in steady state is not known.";
+    const double unsettled = cycle.unsettled.value_or(0.0);
+    if (std::abs(unsettled) <= kTooShort) return "";
+    return fmt::format(" The tire has not settled: RRc is {:.1f} % {} that in steady state.", 1e2 * std::abs(unsettled),
+                       unsettled > 0.0 ? "above" : "below");
+  }
+
   void visit_headlines(ResultSheet& visit) const {
     visit(Summary{fmt::format(
         "The rolling resistance coefficient (RRc) is {{rrc_25degC_2m_N_per_kN}}{} at 25 degC on a 2 m drum{}. Rolling "
-        "resistance is {{rolling_resistance_N}} at {{load_N}} and {{speed_km_h}}.",
+        "resistance is {{rolling_resistance_N}} at {{load_N}} and {{speed_km_h}}.{}",
         uncertainty.has_value() ? " +- {rrc_uncertainty_N_per_kN}" : "",
-        label_class.has_value() ? ", EU label class {label_class}" : "")});
+        label_class.has_value() ? ", EU label class {label_class}" : "", describe_unsettled())});
     const char* label = "RRc at 25 degC, 2 m drum";
     if (uncertainty.has_value()) {
       visit(Headline{label, "{rrc_25degC_2m_N_per_kN} +- {rrc_uncertainty_N_per_kN}",
@@ -326,8 +338,8 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     results.cycles = cycles;
   }
   if (spec.tire.iso_28580.has_value()) results.tire_file_rrc = spec.tire.iso_28580->rrc;
-  constexpr double kTooShort = 0.02;  // Assumed: more than tires of class C1 lack after the standard's warm-up
-  const char* const duration = settings.measurement_cycles > 0 ? "measurement_min" : "warm_up_min";
+  const char* const duration =
+      settings.measurement_cycles > 0 ? "the measurement (measurement_min)" : "the warm-up (warm_up_min)";
   if (results.cycle.is_settling_unknown) {
     outcome.warnings.push_back(
         fmt::format("the tire still becomes warmer or colder, too far from steady state to say how far RRc is from it: "

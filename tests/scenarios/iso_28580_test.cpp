@@ -170,8 +170,13 @@ TEST_CASE("a tire file states the warm-up and the correction of its class", "[fa
 TEST_CASE("a warm-up that is too short for the tire is warned of", "[fast]") {
   const auto rushed = run("iso_28580", "c3_315_80r22_5", {"warm_up_min=30"});
   REQUIRE(rushed.warnings.size() == 1);
-  CHECK_THAT(rushed.warnings.front(), Catch::Contains("warm_up_min is too short"));
-  CHECK(run("iso_28580", "c1_205_55r16").warnings.empty());
+  CHECK_THAT(rushed.warnings.front(), Catch::Contains("the warm-up (warm_up_min) is too short"));
+  // The sentence of the result says so, too.
+  CHECK_THAT(rushed.sheet.summary,
+             Catch::Contains("The tire has not settled: RRc is") && Catch::EndsWith("above that in steady state."));
+  const auto settled = run("iso_28580", "c1_205_55r16");
+  CHECK(settled.warnings.empty());
+  CHECK_THAT(settled.sheet.summary, !Catch::Contains("settled"));
 }
 
 TEST_CASE("the skim test has the load of the tire's class, or the one that the run gives", "[fast]") {
