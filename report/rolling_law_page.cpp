@@ -114,10 +114,14 @@ Block make_speed_chart(const J2452Fit& fit) {
       const double speed_m_s = low_m_s + (high_m_s - low_m_s) * i / kCurvePoints;
       curve.add(kKmhPerMs * speed_m_s, fit.law.calc_force_N(group.pressure_Pa, group.load_N, speed_m_s));
     }
-    series.push_back(points.finish(group.name()));
-    series.push_back(curve.finish("law at " + group.name(), "line"));
+    const std::size_t style = series.size() / 2;  // points and law of a condition alike
+    for (Json one : {points.finish(group.name()), curve.finish("law at " + group.name(), "line")}) {
+      one["style"] = style;
+      series.push_back(std::move(one));
+    }
   }
-  return make_curves({"Speed", "km/h"}, {"Rolling resistance", "N", true}, series);
+  return make_curves({"Speed", "km/h"}, {"Rolling resistance", "N", true}, series,
+                     "Points and the law at one condition have one color. Repeated points may hide each other.");
 }
 
 /// The law over load at the least, the middle and the greatest pressure, with its 95 % band.
@@ -271,7 +275,9 @@ std::vector<Table> make_j2452_tables(const J2452Fit& fit, const std::optional<J2
 Page make_j2452_page(const estimation::RollingTest& test, const J2452Fit& fit,
                      const std::optional<J2452Reference>& reference) {
   Page page{"fit j2452", "Rolling resistance by SAE J2452",
-            fmt::format("{}{}", test.tire.empty() ? "" : test.tire + ", ", format_count(fit.points.size(), "point"))};
+            fmt::format("{}{} at {} of load and pressure", test.tire.empty() ? "" : test.tire + ", ",
+                        format_count(fit.points.size(), "point"),
+                        format_count(group_points(fit.points).size(), "condition"))};
   Section result =
       make_section("Result", typeset_law(make_j2452_tables(fit, reference)), collect_warnings(test, fit.warnings));
   std::vector<Tile> tiles;

@@ -16,12 +16,12 @@ struct Results {
     visit(JointLine{"Skim load, speed", "{skim_load_N}, {speed_km_h}"});
     visit(Result{"drum_torque_Nm", "Drum torque", ".3f", "mean motor torque; none on a belt"}.or_left_out(),
           skim.drum_torque_Nm);
-    visit(Result{"parasitic_N", "Parasitic loss as measured", ".3f", "skim torque over drum radius"},
+    visit(Result{"parasitic_N", "Parasitic loss as measured", ".2f", "skim torque over drum radius"},
           cycle.parasitic_N);
-    visit(Result{"rig_alone_N", "  of it the rig alone (simulated)", ".3f",
+    visit(Result{"rig_alone_N", "  of it the rig alone (simulated)", ".2f",
                  "what the rig alone loses, which only a simulation knows"},
           rig_alone_N);
-    visit(Result{"tire_share_N", "  of it the tire (simulated)", ".3f", "what the tire still loses at skim load"},
+    visit(Result{"tire_share_N", "  of it the tire (simulated)", ".2f", "what the tire still loses at skim load"},
           tire_share_N);
     visit(Result{"liner_temperature_degC", "Liner temperature", ".1f", "mean"}, skim.liner_temperature_K);
     visit(Summary{

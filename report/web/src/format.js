@@ -28,6 +28,17 @@ export function decimalsFor(low, high) {
   return Math.min(6, Math.max(0, 4 - Math.ceil(Math.log10(span) + 1e-9)));
 }
 
+/// The most decimals, not above `most` and at most two fewer, with which parts as they are shown have the sum as it is
+/// shown; `most` where there are none.
+export function decimalsThatAddUp(parts, sum, most) {
+  const scaled = (value, decimals) => Math.round(Number(value.toFixed(decimals)) * 10 ** decimals);
+  for (let decimals = most; decimals >= Math.max(0, most - 2); decimals -= 1) {
+    const total = parts.reduce((all, part) => all + scaled(part, decimals), 0);
+    if (total === scaled(sum, decimals)) return decimals;
+  }
+  return most;
+}
+
 const pad = (n) => String(n).padStart(2, '0');
 
 /// h:mm:ss, or m:ss below an hour.

@@ -1,6 +1,7 @@
 // Curves and points over a quantity that is not time:
-// {x: {label, unit}, y: {label, unit}, series: [{name, kind: line | steps | points, x, y, low, high}], caption}
-// A line's low and high are a band, those of points are whiskers.
+// {x: {label, unit}, y: {label, unit}, series: [{name, kind: line | steps | points, x, y, low, high, style}], caption}
+// A line's low and high are a band, those of points are whiskers. Series of one `style` (0, 1, ...) have one color;
+// without it, each has its own.
 import { axisStyle, axisTitle, baseOption, Chart, figure, makeLegend, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { number } from '../format.js';
@@ -8,7 +9,8 @@ import { column } from '../save.js';
 import { color, seriesStyle } from '../theme.js';
 import { makeTable } from './table.js';
 
-const kSymbols = ['circle', 'rect', 'triangle', 'diamond', 'emptyCircle', 'emptyRect'];
+// Seven, of which no multiple is that of the six colors: 42 series of points are told apart.
+const kSymbols = ['circle', 'rect', 'triangle', 'diamond', 'emptyCircle', 'emptyRect', 'emptyTriangle'];
 
 function whiskers(series, style) {
   return {
@@ -35,11 +37,12 @@ function band(series, style) {
 }
 
 function makeSeries(series, k) {
-  const style = seriesStyle(k);
+  const look = series.style ?? k;
+  const style = seriesStyle(look);
   const isLine = series.kind !== 'points';
   const main = {
     name: series.name, type: isLine ? 'line' : 'scatter', data: series.x.map((x, i) => [x, series.y[i]]), z: isLine ? 3 : 4,
-    step: series.kind === 'steps' ? 'end' : false, showSymbol: isLine && series.x.length <= 25, symbol: kSymbols[k % kSymbols.length], symbolSize: isLine ? 6 : series.x.length > 400 ? 3 : 6,
+    step: series.kind === 'steps' ? 'end' : false, showSymbol: isLine && series.x.length <= 25, symbol: isLine && series.style !== undefined ? 'none' : kSymbols[look % kSymbols.length], symbolSize: isLine ? 6 : series.x.length > 400 ? 3 : 6,
     itemStyle: { color: style.color, opacity: !isLine && series.x.length > 400 ? 0.5 : 1 }, lineStyle: { color: style.color, type: style.type, width: 1.8 },
   };
   if (!series.low) return [main];

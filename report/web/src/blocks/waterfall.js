@@ -2,7 +2,7 @@
 // end: {name, value}, caption}. A step's value is a signed difference; low and high are limits of it.
 import { axisStyle, axisTitle, baseOption, Chart, figure, tipLine } from '../chart.js';
 import { h } from '../dom.js';
-import { decimalsFor, fixed, number } from '../format.js';
+import { decimalsFor, decimalsThatAddUp, fixed, number } from '../format.js';
 import { column } from '../save.js';
 import { color } from '../theme.js';
 import { makeTable } from './table.js';
@@ -22,9 +22,11 @@ function roundStep(range, most) {
 const isNumber = (value) => value !== null && value !== undefined;
 const signed = (value) => `${value > 0 ? '+' : ''}${number(value)}`;
 
-/// A bar's number, with as many decimals as the largest has for four digits; more where nothing would be left of it.
+/// A bar's number, with as many decimals as the largest has for four digits; with fewer where the numbers as they are
+/// shown would not add up; with more where nothing would be left of it.
 function showValues({ start, steps, end }) {
-  const decimals = decimalsFor(0, Math.max(...[start, ...steps, end].map(({ value }) => Math.abs(value))));
+  const most = decimalsFor(0, Math.max(...[start, ...steps, end].map(({ value }) => Math.abs(value))));
+  const decimals = decimalsThatAddUp([start, ...steps].map(({ value }) => value), end.value, most);
   return (value) => (Math.abs(value) < 0.5 * 10 ** -decimals ? number(value, 2) : fixed(value, decimals));
 }
 
