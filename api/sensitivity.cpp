@@ -85,8 +85,9 @@ Sensitivity describe_effects(const std::string& result, const campaigns::DesignI
                           fmt::format("{:.3g}", measures.deviation[f])});
   }
   return {json, table,
-          fmt::format("Change of {} as a factor goes up by half of its probability, from {} trajectories.{}", result,
-                      measures.points, describe_left_out(left_out, design)),
+          fmt::format("Change of {} as a factor goes from its 12.5 % to its 62.5 % quantile, or from 37.5 % to 87.5 %: "
+                      "the mean of {} trajectories.{}",
+                      result, measures.points, describe_left_out(left_out, design)),
           order};
 }
 

@@ -32,20 +32,89 @@ Json make_index_series(const Json& factors, const char* index, const char* name,
 
 std::string name_factor(const Json& factor) { return plain_name(last_part(factor["key"].get<std::string>())); }
 
+/// Of an elementary effect whether it has one sign in all trajectories: its mean is then its mean size, or less that.
+bool has_one_sign(const Json& factor) {
+  constexpr double kRounding = 1e-6;
+  const double size = factor["mean_size"]["value"];
+  return std::abs(std::abs(factor["mean"].get<double>()) - size) <= kRounding * size;
+}
+
+/// The change of the result as a factor goes up, with its sign; the mean size where it goes either way.
+double find_change(const Json& factor) {
+  return has_one_sign(factor) ? factor["mean"].get<double>() : factor["mean_size"]["value"].get<double>();
+}
+
+std::string show_change(const Json& factor) {
+  return has_one_sign(factor) ? fmt::format("{:+.3g}", find_change(factor))
+                              : fmt::format("{:.3g}", find_change(factor));
+}
+
+/// Changes with their signs, and their intervals.
+Json make_change_series(const Json& factors) {
+  Json values = Json::array(), low = Json::array(), high = Json::array();
+  for (const Json& each : factors) {
+    const double sign = has_one_sign(each) && each["mean"].get<double>() < 0.0 ? -1.0 : 1.0;
+    const double a = sign * each["mean_size"]["low_95"].get<double>();
+    const double b = sign * each["mean_size"]["high_95"].get<double>();
+    values.push_back(rounded(find_change(each)));
+    low.push_back(rounded(std::min(a, b)));
+    high.push_back(rounded(std::max(a, b)));
+  }
+  return {{"name", "mean change"}, {"values", values}, {"low", low}, {"high", high}};
+}
+
+/// "from 21.25 to 26.25 °C" of a factor of elementary effects, which has four values: a change goes from the first to
+/// the third, or from the second to the fourth. Empty for words, and where items are left out.
+std::string describe_step(const std::string& key, const std::vector<FactorScatter>& scatters) {
+  const auto own =
+      std::find_if(scatters.begin(), scatters.end(), [&key](const FactorScatter& one) { return one.key == key; });
+  if (own == scatters.end() || !own->words.empty()) return "";
+  std::vector<double> levels = own->values;
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  if (levels.size() != 4) return "";
+  const std::string unit = shown_unit(last_part(key));
+  return fmt::format("from {:.4g} to {:.4g}{}{}", levels[0], levels[2], unit.empty() ? "" : " ", unit);
+}
+
+constexpr const char* kStepOfProbability = "from its 12.5 % to its 62.5 % quantile, or from 37.5 % to 87.5 %";
+
+/// Shares beyond 0 and 100 %, which few points give, end there. Returns whether there are any.
+bool clip_shares(Json& series) {
+  bool is_clipped = false;
+  for (Json& one : series) {
+    for (const char* list : {"values", "low", "high"}) {
+      for (Json& value : one[list]) {
+        if (!value.is_number()) continue;
+        const double share = value;
+        if (share < 0.0 || share > 100.0) is_clipped = true;
+        value = std::clamp(share, 0.0, 100.0);
+      }
+    }
+  }
+  return is_clipped;
+}
+
 Block make_index_bars(const Json& sensitivity) {
   const Json& factors = sensitivity["factors"];
   const std::string result = sensitivity["result"];
   Json names = Json::array();
   for (const Json& each : factors) names.push_back(plain_name(last_part(each["key"].get<std::string>())));
   if (factors.front().contains("total")) {
-    return make_bars({"Share of the variance of " + comparison::label_result(result), "%"}, names,
-                     Json::array({make_index_series(factors, "first", "alone", 100.0),
-                                  make_index_series(factors, "total", "with interactions", 100.0)}),
-                     "The factor with the largest share first. Whiskers: intervals of 95 %.");
+    Json series = Json::array({make_index_series(factors, "first", "alone", 100.0),
+                               make_index_series(factors, "total", "with interactions", 100.0)});
+    const char* note = clip_shares(series)
+                           ? " What so few points put beyond 0 or 100 % is drawn there: the table below "
+                             "has it."
+                           : "";
+    return make_bars({"Share of the variance of " + comparison::label_result(result), "%"}, names, series,
+                     fmt::format("The factor with the largest share first. Whiskers: intervals of 95 %.{}", note));
   }
-  return make_bars({"Size of the change of " + comparison::label_result(result), shown_unit(result)}, names,
-                   Json::array({make_index_series(factors, "mean_size", "mean size", 1.0)}),
-                   "As the factor goes up by half of its probability. Whiskers: intervals of 95 %.");
+  const bool has_both = !std::all_of(factors.begin(), factors.end(), &has_one_sign);
+  return make_bars({"Change of " + comparison::label_result(result), shown_unit(result)}, names,
+                   Json::array({make_change_series(factors)}),
+                   fmt::format("As the factor goes up {}. Whiskers: intervals of 95 %.{}", kStepOfProbability,
+                               has_both ? " A factor whose changes go either way has their mean size." : ""));
 }
 
 constexpr std::size_t kMostPoints = 1000;  // Assumed: more hide each other
@@ -175,7 +244,7 @@ std::string show_percent_of(double share) {
 }
 
 /// Which factors matter, and by how much, in a sentence.
-std::string describe_sensitivity(const Json& sensitivity) {
+std::string describe_sensitivity(const Json& sensitivity, const std::vector<FactorScatter>& scatters) {
   const Json& factors = sensitivity["factors"];
   const std::string result = sensitivity["result"];
   const std::string unit = shown_unit(result);
@@ -186,7 +255,9 @@ std::string describe_sensitivity(const Json& sensitivity) {
       fmt::format("{} depends most on {}: ", capitalized(comparison::label_result(result)), name_factor(factors[0]));
   const auto size = [&](const Json& factor) {
     if (is_sobol) return show_percent_of(factor["total"]["value"].get<double>());
-    return fmt::format("{:.3g} {}", factor["mean_size"]["value"].get<double>(), unit);
+    const std::string step = describe_step(factor["key"], scatters);
+    return fmt::format("{} {}{}{}", show_change(factor), unit, has_one_sign(factor) ? "" : " up or down",
+                       step.empty() ? "" : " " + step);
   };
   text += is_sobol ? fmt::format("it makes {} of the variance", size(factors[0]))
                    : fmt::format("it changes by {}", size(factors[0]));
@@ -195,10 +266,10 @@ std::string describe_sensitivity(const Json& sensitivity) {
   }
   if (!others.empty())
     text += fmt::format("; {}{}", fmt::join(others, ", "), factors.size() > kMost ? ", the others less" : "");
-  return text + (is_sobol ? " (with interactions)." : " (as the factor goes up by half of its probability).");
+  return text + (is_sobol ? " (with interactions)." : ".");
 }
 
-Block make_sensitivity_tiles(const Json& sensitivity) {
+Block make_sensitivity_tiles(const Json& sensitivity, const std::vector<FactorScatter>& scatters) {
   constexpr std::size_t kMost = 4;
   const Json& factors = sensitivity["factors"];
   const std::string result = sensitivity["result"];
@@ -216,13 +287,15 @@ Block make_sensitivity_tiles(const Json& sensitivity) {
                        "",
                        {place + "total/value"}});
     } else {
-      const double mean = factor["mean"];
-      tiles.push_back({name,
-                       fmt::format("{:+.3g}", mean),
-                       shown_unit(result),
-                       "mean change as it goes up by half of its probability",
-                       "",
-                       {place + "mean"}});
+      const std::string step = describe_step(factor["key"], scatters);
+      tiles.push_back(
+          {name,
+           show_change(factor),
+           shown_unit(result),
+           fmt::format("{} as it goes up {}", has_one_sign(factor) ? "mean change" : "mean size of the change",
+                       step.empty() ? kStepOfProbability : step),
+           "",
+           {place + (has_one_sign(factor) ? "mean" : "mean_size/value")}});
     }
   }
   if (sensitivity.contains("mean") && sensitivity.contains("sd")) {
@@ -309,7 +382,7 @@ Page make_sensitivity_page(const Json& sensitivity, const Table& of_terminal, co
             format_count(sensitivity["factors"].size(), "factor")};
   page.add({"What the result depends on",
             "",
-            {make_lead("", describe_sensitivity(sensitivity)), make_sensitivity_tiles(sensitivity),
+            {make_lead("", describe_sensitivity(sensitivity, scatters)), make_sensitivity_tiles(sensitivity, scatters),
              make_index_bars(sensitivity), make_paragraph(explanation), make_table(table)}});
   const std::size_t items = scatters.empty() ? 0 : scatters.front().values.size();
   Section over{"Result over the factors",
