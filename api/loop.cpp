@@ -32,7 +32,7 @@ Loop advance_loop(const LoopInput& input) {
     const diagnosis::Diagnosis found =
         step->diagnosis.has_value() ? *step->diagnosis : diagnosis::diagnose(step->set, options);
     report::Page page = report::make_diagnosis_page(step->set, found);
-    page.sections.insert(page.sections.begin() + 1, report::make_loop_section(step->ledger));  // after the verdict
+    report::add_loop(step->ledger, page);
     return report::make_html(page);
   };
   return loop;

@@ -30,6 +30,9 @@ Section make_explanations(const Findings& findings);
 
 /// The ledger of a loop of tests: probabilities over the hours of the machine, and what each answer was.
 Section make_loop_section(const LoopLedger& ledger);
+/// Adds a loop of tests to the page of its last diagnosis: to the verdict what the loop has done and what comes next,
+/// and after it the ledger.
+void add_loop(const LoopLedger& ledger, Page& page);
 
 /// A folder of sets: a row each, and what comes back.
 Page make_fleet_page(const diagnosis::Fleet& fleet);

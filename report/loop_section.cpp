@@ -6,6 +6,7 @@
 #include "diagnosis/output/summary.h"
 #include "report/blocks.h"
 #include "report/diagnosis_page.h"
+#include "sim/core/text.h"
 
 namespace rollrig::report {
 namespace {
@@ -36,7 +37,52 @@ std::string describe_first_cause(const LoopAnswer& answer) {
   return text;
 }
 
+/// What comes next, or why nothing does.
+std::string describe_loop_state(const LoopLedger& ledger) {
+  switch (ledger.state) {
+    case LoopState::kNamed:
+      return "A cause has at least 95 %: no further test is needed";
+    case LoopState::kHoursGone:
+      return "Too few hours are left for a test";
+    case LoopState::kNothingToTest:
+      return "No test that fits into the hours left would tell more";
+    case LoopState::kWaiting:
+      break;
+  }
+  if (ledger.tests.empty()) return "The next test is not planned yet";
+  const LoopTest& next = ledger.tests.back();
+  return fmt::format("Next: test-{}, {} ({:.1f} h)", ledger.tests.size(), next.test, next.hours);
+}
+
+/// "1 test done, 1 failed".
+std::string count_loop_tests(const LoopLedger& ledger) {
+  const auto count = [&ledger](LoopTestState state) {
+    return static_cast<std::size_t>(std::count_if(ledger.tests.begin(), ledger.tests.end(),
+                                                  [state](const LoopTest& test) { return test.state == state; }));
+  };
+  const std::size_t failed = count(LoopTestState::kFailed);
+  return fmt::format("{} done{}", format_count(count(LoopTestState::kMeasured), "test"),
+                     failed > 0 ? fmt::format(", {} failed", failed) : "");
+}
+
 }  // namespace
+
+void add_loop(const LoopLedger& ledger, Page& page) {
+  const std::string hours = fmt::format("{:.1f} of {:.1f}", diagnosis::calc_hours_used(ledger), ledger.hours);
+  page.subtitle += fmt::format(". Loop of tests: {}", count_loop_tests(ledger));
+  for (Block& block : page.sections.front().blocks) {
+    if (block["type"] == "lead") {
+      block["more"] = fmt::format("Loop of tests: {}, {} h of the machine used. {}.", count_loop_tests(ledger), hours,
+                                  describe_loop_state(ledger));
+    }
+    if (block["type"] != "tiles") continue;
+    const Tile used{"Hours of the loop used", hours, "h",
+                    fmt::format("{}. {}", count_loop_tests(ledger), describe_loop_state(ledger))};
+    const Block tiles = make_tiles({used});
+    block["tiles"].insert(block["tiles"].begin() + 1, tiles["tiles"].front());
+  }
+  page.sections.insert(page.sections.begin() + 1, make_loop_section(ledger));  // after the verdict
+}
 
 Section make_loop_section(const LoopLedger& ledger) {
   Section section{"Hours of the machine against probability",

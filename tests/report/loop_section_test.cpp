@@ -31,3 +31,31 @@ TEST_CASE("the ledger of a loop is a step for each answer, to the hours that are
   CHECK(section.blocks[1]["rows"][1][2] == "bearing warmup");
   CHECK(report::make_loop_section(LoopLedger()).blocks.empty());
 }
+
+TEST_CASE("the first screen of a loop says hours, tests and what comes next", "[fast]") {
+  LoopLedger ledger;
+  ledger.hours = 8.0;
+  ledger.tests = {{"skim_sweep", "a skim sweep", 1.5, 0.4, 0.35, {}, {}, LoopTestState::kMeasured},
+                  {"load_sweep", "a load sweep", 2.0, 0.3, 0.6, {}, {}, LoopTestState::kPlanned}};
+  ledger.answers = {LoopAnswer()};
+  const auto make_page = [&ledger] {
+    report::Page page{"loop", "Diagnosis", ""};
+    page.add({"Verdict",
+              "",
+              {{{"type", "lead"}, {"text", "Explained."}},
+               {{"type", "tiles"}, {"tiles", {{{"label", "Cause"}}, {{"label", "How sure"}}}}}}});
+    report::add_loop(ledger, page);
+    return page;
+  };
+  const report::Page waiting = make_page();
+  CHECK(waiting.sections[0].blocks[0]["more"] ==
+        "Loop of tests: 1 test done, 1.5 of 8.0 h of the machine used. Next: test-2, a load sweep (2.0 h).");
+  CHECK(waiting.sections[0].blocks[1]["tiles"][1]["value"] == "1.5 of 8.0");
+  CHECK(waiting.sections[1].blocks[0]["type"] == "curves");
+  ledger.tests.back().state = LoopTestState::kFailed;
+  ledger.state = LoopState::kNamed;
+  const std::string ended = make_page().sections[0].blocks[0]["more"];
+  CHECK(ended ==
+        "Loop of tests: 1 test done, 1 failed, 3.5 of 8.0 h of the machine used. A cause has at least 95 %: no further "
+        "test is needed.");
+}
