@@ -126,11 +126,20 @@ Table make_regress_table(const Json& regression) {
 
 namespace {
 
+/// Statuses of runs of which nothing says that they are wrong.
+bool is_doubtful(const std::string& status) { return status == "no golden"; }
+
+/// What the page says of so many runs with a status.
+std::string describe_status(const std::string& status, std::size_t count) {
+  if (!is_doubtful(status)) return fmt::format("{}: {}", status, count);
+  return fmt::format("{} {} no stored result yet", count, count == 1 ? "has" : "have");
+}
+
 /// Worst difference of each run that was compared; the axis goes to 1 at least, from which on a run differs.
 Block make_regress_bars(const Json& names, const Json& shares) {
-  Block bars = make_bars({"Worst difference of each run from its golden", "of its tolerance", true}, names,
+  Block bars = make_bars({"Worst difference of each run from its stored result", "of its tolerance", true}, names,
                          Json::array({{{"name", "worst"}, {"values", shares}}}),
-                         "A run differs where its bar is above 1. Runs without a golden have no bar.");
+                         "A run differs where its bar is above 1. Runs without a stored result have no bar.");
   bars["least_end"] = 1.0;
   Json labels = Json::array();
   for (const Json& share : shares) labels.push_back(show_share(share));
@@ -143,6 +152,7 @@ Block make_regress_bars(const Json& names, const Json& shares) {
 Page make_regress_page(const Json& regression) {
   const Json& runs = regression["runs"];
   std::size_t good = 0;
+  std::size_t doubtful = 0;
   std::vector<std::pair<std::string, std::size_t>> others;  // status and how many, in their order
   double most = 0.0;                                        // share of the tolerance
   std::vector<std::string> problems;
@@ -158,6 +168,7 @@ Page make_regress_page(const Json& regression) {
           std::find_if(others.begin(), others.end(), [&](const auto& one) { return one.first == status; });
       known == others.end() ? others.emplace_back(status, 1) : (++known->second, *known);
     }
+    if (is_doubtful(status)) ++doubtful;
     for (const Json& problem : run["problems"]) problems.push_back(name + ": " + problem.get<std::string>());
     if (run["compared"] == 0) continue;  // nothing to draw
     names.push_back(name);
@@ -165,24 +176,42 @@ Page make_regress_page(const Json& regression) {
     shares.push_back(share.is_null() ? Json() : rounded(share.get<double>()));
     if (!share.is_null()) most = std::max(most, share.get<double>());
   }
-  const bool is_good = good == runs.size();
-  Page page{"regress", "Regression runs against their goldens", format_count(runs.size(), "run")};
+  const bool is_wrong = good + doubtful < runs.size();
+  const char* tone = is_wrong ? "bad" : doubtful > 0 ? "doubt" : "good";
+  Page page{"regress", "Regression runs against their stored results (goldens)", format_count(runs.size(), "run")};
   Section verdict{"Verdict"};
-  std::string text = fmt::format("{} of {} give the values of their goldens", good, format_count(runs.size(), "run"));
-  for (const auto& [status, count] : others) text += fmt::format("; {}: {}", status, count);
-  verdict.blocks.push_back(make_lead(is_good ? "good" : "bad", text + "."));
-  std::vector<Tile> tiles{
-      {"As their goldens", fmt::format("{} of {}", good, runs.size()), "", "runs", is_good ? "good" : "bad", {}}};
+  std::string text =
+      fmt::format("{} of {} give the values of their stored results", good, format_count(runs.size(), "run"));
+  if (!is_wrong && doubtful > 0) text = "No run differs; " + text;
+  for (const auto& [status, count] : others) text += "; " + describe_status(status, count);
+  verdict.blocks.push_back(make_lead(tone, text + "."));
+  std::vector<Tile> tiles{{"As their stored results",
+                           fmt::format("{} of {}", good, runs.size()),
+                           "",
+                           "runs",
+                           is_wrong   ? "bad"
+                           : good > 0 ? "good"
+                                      : "",
+                           {}}};
   for (const auto& [status, count] : others) {
-    tiles.push_back({capitalized(status), fmt::format("{}", count), "", "of the runs", "bad", {}});
+    tiles.push_back({is_doubtful(status) ? "No stored result" : capitalized(status),
+                     fmt::format("{}", count),
+                     "",
+                     is_doubtful(status) ? "of the runs; regress --update stores theirs" : "of the runs",
+                     is_doubtful(status) ? "doubt" : "bad",
+                     {}});
   }
   verdict.blocks.push_back(make_tiles(tiles));
   if (most > 0.0) verdict.blocks.push_back(make_regress_bars(names, shares));
   Table table = make_regress_table(regression);
-  for (std::vector<std::string>& row : table.rows) row.back() = name_quantity(row.back());
+  for (std::vector<std::string>& row : table.rows) {
+    row.back() = name_quantity(row.back());
+    if (is_doubtful(row[1])) row[1] = "no stored result";
+  }
   verdict.blocks.push_back(make_table(table));
   page.add(std::move(verdict));
-  if (!problems.empty()) page.add({"What differs", "", {{{"type", "text"}, {"items", problems}}}});
+  if (!problems.empty())
+    page.add({is_wrong ? "What differs" : "What is missing", "", {{{"type", "text"}, {"items", problems}}}});
   return page;
 }
 

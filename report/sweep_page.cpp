@@ -305,6 +305,15 @@ std::string describe_sweep(const Json& sweep, const std::vector<std::string>& ax
                      show_result(values[lowest], key), place(highest), show_result(values[highest], key), changes);
 }
 
+/// Why a result that is corrected to 25 °C changes with the ambient temperature that it is corrected for.
+std::string explain_ambient(const std::vector<std::string>& axes, const std::string& key) {
+  const bool has_ambient =
+      std::any_of(axes.begin(), axes.end(), [](const std::string& axis) { return last_part(axis) == "ambient_degC"; });
+  if (!has_ambient || last_part(key).find("25degC") == std::string::npos) return "";
+  return "The value at 25 °C still depends on the ambient temperature: it is corrected with the "
+         "coefficient of the standard or of the tire file, not by what this tire does.";
+}
+
 std::vector<std::string> list_point_failures(const Json& sweep) {
   std::vector<std::string> failures;
   for (const Json& point : sweep["points"]) {
@@ -362,7 +371,10 @@ Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const st
     const std::string others = describe_other_conditions(sweep, axes);
     const std::string text = describe_sweep(sweep, axes, shown.front(), name_result(shown.front(), headlines));
     if (!text.empty()) {
-      charts.blocks.push_back(make_lead("", text, others.empty() ? "" : "The tests differ in their " + others + "."));
+      std::string more = others.empty() ? "" : "The tests differ in their " + others + ".";
+      const std::string why = explain_ambient(axes, shown.front());
+      if (!why.empty()) more += (more.empty() ? "" : " ") + why;
+      charts.blocks.push_back(make_lead("", text, more));
     }
   } else if (!tiles.empty()) {
     charts.blocks.push_back(make_lead("", describe_tile(tiles.front())));

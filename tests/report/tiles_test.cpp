@@ -197,6 +197,18 @@ TEST_CASE("a sweep of tires says which is lowest and in what the tests differ", 
   CHECK(lead["more"] == "The tests differ in their load: a40 5570 N, a50 6865 N.");
 }
 
+TEST_CASE("a sweep over ambient says why the value at 25 degC depends on it", "[fast]") {
+  for (const char* axis : {"ambient_degC", "pressure_kPa"}) {
+    Json sweep = {{"scenario", "iso_28580"}, {"points", Json::array()}, {"sensitivities", Json::array()}};
+    for (const auto& [value, rrc] : {std::pair("20", 5.3), {"30", 5.1}}) {
+      sweep["points"].push_back({{"set", {{axis, value}}}, {"result", {{"rrc_25degC_2m_N_per_kN", rrc}}}});
+    }
+    const std::string more = report::make_sweep_page(sweep, {}, "").sections.front().blocks.front().value("more", "");
+    CHECK((more.find("still depends on the ambient temperature") != std::string::npos) ==
+          (std::string(axis) == "ambient_degC"));
+  }
+}
+
 TEST_CASE("runs without a golden are no runs that differ, and have no bar", "[fast]") {
   Json regression = {{"runs", Json::array()}};
   const auto add = [&](const char* name, const char* status, int compared, double share) {
@@ -210,11 +222,19 @@ TEST_CASE("runs without a golden are no runs that differ, and have no bar", "[fa
   add("new_one", "no golden", 0, 0.0);
   add("skim", "same", 410, 2e-5);
   const std::vector<report::Block> blocks = report::make_regress_page(regression).sections.front().blocks;
-  CHECK(blocks[0]["text"] == "1 of 2 runs give the values of their goldens; no golden: 1.");
-  CHECK(blocks[1]["tiles"].size() == 2);
+  CHECK(blocks[0]["text"] ==
+        "No run differs; 1 of 2 runs give the values of their stored results; 1 has no stored result yet.");
+  CHECK(blocks[0]["tone"] == "doubt");
+  REQUIRE(blocks[1]["tiles"].size() == 2);
+  CHECK(blocks[1]["tiles"][0]["tone"] == "good");
+  CHECK(blocks[1]["tiles"][1]["tone"] == "doubt");
   REQUIRE(blocks[2]["type"] == "bars");
   CHECK(blocks[2]["categories"] == Json::array({"skim"}));
   CHECK(blocks[2]["least_end"] == 1.0);  // the limit is on the axis: a share of 2e-5 is no tall bar
+  add("changed", "differs", 410, 3.0);
+  const Json worse = report::make_regress_page(regression).sections.front().blocks[0];
+  CHECK(worse["tone"] == "bad");
+  CHECK_THAT(worse["text"].get<std::string>(), Catch::EndsWith("; 1 has no stored result yet; differs: 1."));
 }
 
 TEST_CASE("a sensitivity says which factor matters and how much, and its map is in the document", "[fast]") {
@@ -239,4 +259,49 @@ TEST_CASE("a sensitivity says which factor matters and how much, and its map is 
   REQUIRE(blocks[1]["tiles"].size() == 3);
   CHECK(blocks[1]["tiles"][0]["value"] == "97.8 %");
   CHECK(blocks[2]["type"] == "bars");
+}
+
+TEST_CASE("an elementary effect has one sign in sentence, tile and bar, and says from where to where", "[fast]") {
+  const auto effect = [](double size, double mean) {
+    return Json{{"mean_size", {{"value", size}, {"low_95", 0.9 * size}, {"high_95", 1.1 * size}}}, {"mean", mean}};
+  };
+  Json sensitivity = {{"result", "rrc_N_per_kN"}, {"factors", {effect(0.32, -0.32), effect(0.1, 0.02)}}};
+  sensitivity["factors"][0]["key"] = "ambient_degC";
+  sensitivity["factors"][1]["key"] = "pressure_kPa";
+  const std::vector<double> results(4, 5.0);
+  const std::vector<report::FactorScatter> scatters{{"ambient_degC", {28.75, 21.25, 23.75, 26.25}, results},
+                                                    {"pressure_kPa", {240.0, 240.0, 260.0, 260.0}, results}};
+  const Table table{"", {"factor"}, {{"ambient_degC"}, {"pressure_kPa"}}};
+  const report::Page page = report::make_sensitivity_page(sensitivity, table, "", scatters);
+  const std::vector<report::Block>& blocks = page.sections.front().blocks;
+  CHECK(blocks[0]["text"] ==
+        "RRc depends most on ambient: it changes by -0.32 N/kN from 21.25 to 26.25 °C; pressure 0.1 N/kN up or down.");
+  CHECK(blocks[1]["tiles"][0]["value"] == "-0.32");
+  CHECK(blocks[1]["tiles"][0]["note"] == "mean change as it goes up from 21.25 to 26.25 °C");
+  CHECK(blocks[1]["tiles"][1]["value"] == "0.1");  // the mean of changes that go either way hides them
+  CHECK(blocks[2]["series"][0]["values"] == Json({-0.32, 0.1}));
+  CHECK(blocks[2]["series"][0]["low"][0] == Approx(-0.352));
+  CHECK(blocks[2]["series"][0]["high"][0] == Approx(-0.288));
+}
+
+TEST_CASE("a share of the variance is drawn from 0 to 100 %, and a note says where that was not its estimate",
+          "[fast]") {
+  const auto index = [](double low, double value, double high) {
+    return Json{{"value", value}, {"low_95", low}, {"high_95", high}};
+  };
+  Json sensitivity = {{"result", "rrc_N_per_kN"},
+                      {"factors",
+                       {{{"key", "ambient_degC"}, {"first", index(0.5, 0.9, 1.5)}, {"total", index(0.6, 0.9, 1.3)}},
+                        {{"key", "pressure_kPa"}, {"first", index(-0.1, 0.1, 0.2)}, {"total", index(0.0, 0.1, 0.2)}}}}};
+  const Table table{"", {"factor"}, {{"ambient_degC"}, {"pressure_kPa"}}};
+  const auto make_bars = [&] {
+    return report::make_sensitivity_page(sensitivity, table, "", {}).sections.front().blocks[2];
+  };
+  const report::Block clipped = make_bars();
+  CHECK(clipped["series"][0]["high"][0] == 100.0);
+  CHECK(clipped["series"][0]["low"][1] == 0.0);
+  CHECK_THAT(clipped["caption"].get<std::string>(), Catch::Contains("beyond 0 or 100 %"));
+  sensitivity["factors"][0]["first"] = sensitivity["factors"][0]["total"] = index(0.8, 0.9, 1.0);
+  sensitivity["factors"][1]["first"] = index(0.0, 0.1, 0.2);
+  CHECK_THAT(make_bars()["caption"].get<std::string>(), !Catch::Contains("beyond"));
 }
