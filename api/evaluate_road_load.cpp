@@ -168,8 +168,10 @@ RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOpti
   result.make_files = [procedure, json = result.json] {
     return FolderFiles{{"road_load.json", json}, {"points.csv", report::write_procedure_points(*procedure)}};
   };
-  result.make_page = [procedure, source, budgets] {
-    return make_page_with_uncertainty(report::make_procedure_page(*procedure, source), budgets);
+  const std::string subtitle =
+      fmt::format("{}, {}", last_part(file, '/'), format_count(procedure->run_names.size(), "run"));
+  result.make_page = [procedure, subtitle, budgets] {
+    return make_page_with_uncertainty(report::make_procedure_page(*procedure, subtitle), budgets);
   };
   result.make_test_report = [procedure, file, json = std::move(json),
                              files = list_report_files(recorder, &find_recording_role)] {

@@ -92,6 +92,37 @@ bool shows_difference(const Difference& difference) {
 
 namespace {
 
+/// Decimals with which the largest of a difference and its limits has three digits; none where it needs an exponent.
+std::optional<int> find_decimals(const Difference& difference) {
+  constexpr int kDigits = 3, kMost = 6;
+  double largest = std::abs(difference.value.value_or(0.0));
+  if (difference.sd.has_value()) largest = std::max(std::abs(*difference.low_95), std::abs(*difference.high_95));
+  if (!(largest > 0.0)) return 0;
+  const int decimals = kDigits - 1 - static_cast<int>(std::floor(std::log10(largest)));
+  if (decimals > kMost || decimals < -kMost) return std::nullopt;
+  return std::max(0, decimals);
+}
+
+std::string show_like(double value, const Difference& difference, bool has_sign) {
+  const std::optional<int> decimals = find_decimals(difference);
+  if (!decimals.has_value()) return has_sign ? fmt::format("{:+.3g}", value) : fmt::format("{:.3g}", value);
+  return has_sign ? fmt::format("{:+.{}f}", value, *decimals) : fmt::format("{:.{}f}", value, *decimals);
+}
+
+}  // namespace
+
+std::string show_difference(const Difference& difference) {
+  return difference.value.has_value() ? show_like(*difference.value, difference, true) : "-";
+}
+
+std::string show_interval(const Difference& difference) {
+  if (!difference.sd.has_value()) return "-";
+  return fmt::format("{} to {}", show_like(*difference.low_95, difference, false),
+                     show_like(*difference.high_95, difference, false));
+}
+
+namespace {
+
 std::string describe_difference(const Comparison& comparison, const ComparedValue& value, std::size_t other) {
   const Difference& difference = value.differences[other - 1];
   const std::string& name = comparison.names[other];
@@ -104,19 +135,19 @@ std::string describe_difference(const Comparison& comparison, const ComparedValu
   if (size == 0.0) {
     text += fmt::format("the same as that of {}", comparison.names.front());
   } else {
-    text += fmt::format("{:.3g}{} {} than that of {}", std::abs(size), unit, size < 0.0 ? "lower" : "higher",
-                        comparison.names.front());
+    text += fmt::format("{}{} {} than that of {}", show_like(std::abs(size), difference, false), unit,
+                        size < 0.0 ? "lower" : "higher", comparison.names.front());
   }
   std::string more;
   if (difference.percent.has_value()) more += fmt::format("{:+.1f} %; ", *difference.percent);
   if (difference.sd.has_value()) {
-    more += fmt::format("95 % interval {:.3g} to {:.3g}{}", *difference.low_95, *difference.high_95, unit);
+    more += fmt::format("95 % interval {}{}", show_interval(difference), unit);
   } else {
     more += "no interval";
   }
   if (!shows_difference(difference) && size != 0.0) {
-    return fmt::format("No difference in {} is shown: {} less {} is {:+.3g}{} ({}, which contains 0)", what, name,
-                       comparison.names.front(), size, unit, more);
+    return fmt::format("No difference in {} is shown: {} less {} is {}{} ({}, which contains 0)", what, name,
+                       comparison.names.front(), show_difference(difference), unit, more);
   }
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return fmt::format("{} ({})", text, more);

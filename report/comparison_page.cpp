@@ -27,7 +27,7 @@ std::string show_value(const std::optional<double>& value, const char* digits = 
 
 std::string show_limits(const Difference& difference) {
   if (!difference.sd.has_value()) return "-";
-  return fmt::format("{:.3g} to {:.3g}", *difference.low_95, *difference.high_95);
+  return comparison::show_interval(difference);
 }
 
 std::string explain_missing(const EnergyWaterfall& waterfall) {
@@ -65,7 +65,7 @@ Block make_main_tiles(const Comparison& comparison, std::size_t main) {
     if (i > 0) {
       const Difference& difference = value.differences[i - 1];
       tile.note =
-          fmt::format("{} {} to {}", show_value(difference.value, "{:+.3g}"), value.unit, comparison.names.front());
+          fmt::format("{} {} to {}", comparison::show_difference(difference), value.unit, comparison.names.front());
       if (difference.percent.has_value()) tile.note += fmt::format(", {:+.1f} %", *difference.percent);
       if (difference.sd.has_value()) tile.note += fmt::format("; 95 % interval {}", show_limits(difference));
       if (!comparison::shows_difference(difference)) {
@@ -85,10 +85,10 @@ bool is_condition(const ComparedValue& value) {
   return kConditions.count(value.name) > 0;
 }
 
-/// Whether two values differ by the same share in each of the compared, to rounding: one is the other times a constant,
-/// as a force is a torque over the radius of the drum.
+/// Whether two values differ by the same share in each of the compared, as far as is seen: one is the other times a
+/// constant, as a force is a torque over the radius of the drum, or found by another method.
 bool differ_alike(const ComparedValue& a, const ComparedValue& b) {
-  constexpr double kSame = 1e-6;
+  constexpr double kSame = 2e-3;  // of the percentage: bars that no eye tells apart
   return std::equal(a.differences.begin(), a.differences.end(), b.differences.begin(), b.differences.end(),
                     [](const Difference& x, const Difference& y) {
                       if (x.percent.has_value() != y.percent.has_value()) return false;

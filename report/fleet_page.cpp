@@ -125,6 +125,8 @@ Block make_fleet_tiles(const Fleet& fleet) {
   std::vector<Tile> tiles{make("Explained by a cause", counts.explained, "good"), make("No gap", counts.no_gap, "good"),
                           make("A gap without a cause", counts.unexplained, "bad")};
   if (counts.failed > 0) tiles.push_back(make("Not diagnosed", counts.failed, "bad"));
+  // What was found stands first.
+  std::stable_partition(tiles.begin(), tiles.end(), [](const Tile& tile) { return !tile.tone.empty(); });
   return make_tiles(tiles);
 }
 
@@ -163,6 +165,9 @@ Table make_named_table(const Fleet& fleet) {
   };
   const std::size_t verdict = column_of("verdict");
   const std::size_t cause = column_of("cause");
+  // A terminal has no room for them.
+  table.columns[column_of("gap, floors")] = "gap, noise floors";
+  table.columns[column_of("after")] = "gap with the cause, noise floors";
   for (std::size_t i = 0; i < fleet.members.size(); ++i) {
     const std::optional<Findings>& findings = fleet.members[i].findings;
     if (!findings.has_value()) continue;

@@ -10,18 +10,51 @@
 #include "diagnosis/output/summary.h"
 #include "report/blocks.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 
 namespace rollrig::report {
 namespace {
 
 constexpr std::size_t kMostBars = 8;
 
+/// What differs: a torque is given as force at the surface of the drum.
+std::string name_reading(const Location& at) {
+  const bool is_torque = unit_of_key(at.channel).symbol != at.unit && at.unit == "N";
+  return plain_name(at.channel) + (is_torque ? " (as force at the surface)" : "");
+}
+
 /// Where their readings differ most.
 std::string describe_readings(const PairFindings& findings) {
   if (findings.where.empty()) return "their readings differ";
   const Location& at = findings.where.front();
-  return fmt::format("their readings differ, most in the {}: {:+.2g} {} in run {}", plain_name(at.channel), at.size,
-                     at.unit, at.run);
+  return fmt::format("their readings differ, most in the {}: {:+.2g} {} beside the simulation in run {}, {}",
+                     name_reading(at), at.size, at.unit, at.run, at.phase);
+}
+
+/// The difference of the coefficients, in a sentence; empty where it is not known.
+std::string describe_rrc(const PairFindings& findings) {
+  const RrcEstimate& at = findings.difference;
+  if (!std::isfinite(at.value_N_per_kN)) return "";
+  const bool shows_none = at.low_95_N_per_kN < 0.0 && at.high_95_N_per_kN > 0.0;
+  return fmt::format("{}: RRc on A less that on B is {:+.3f} +- {:.3f} N/kN.",
+                     shows_none ? "No difference in RRc itself is shown" : "RRc differs as well", at.value_N_per_kN,
+                     0.5 * (at.high_95_N_per_kN - at.low_95_N_per_kN));
+}
+
+/// The places at which the readings differ, those with the largest share first: readings of one unit.
+Block make_place_bars(const PairFindings& findings) {
+  Json names = Json::array(), values = Json::array();
+  const std::string unit = findings.where.front().unit;
+  const std::string channel = findings.where.front().channel;
+  for (const Location& at : findings.where) {
+    if (at.unit != unit || at.channel != channel || names.size() == kMostBars) continue;
+    names.push_back(fmt::format("{}, {}", at.run, at.phase));
+    values.push_back(rounded(at.size));
+  }
+  return make_bars({capitalized(name_reading(findings.where.front())) + ": measured less simulated", unit}, names,
+                   {{{"name", "measured less simulated"}, {"values", values}}},
+                   "The same tire is simulated on both machines. The place with the largest share of the difference "
+                   "stands first.");
 }
 
 bool names_cause(const PairFindings& findings) {
@@ -70,6 +103,12 @@ std::string describe_pair(const PairFindings& findings) {
     for (const std::string& id : cause.effects) boost::algorithm::replace_all(text, id, plain_name(id));
   }
   boost::algorithm::replace_first(text, "they", "machines A and B");
+  if (findings.verdict == PairVerdict::kUnexplained && !findings.where.empty()) {
+    const Location& at = findings.where.front();
+    boost::algorithm::replace_first(text, "differ",
+                                    fmt::format("differ, most in the {}: {:+.2g} {} beside the simulation (run {}, {})",
+                                                name_reading(at), at.size, at.unit, at.run, at.phase));
+  }
   return capitalized(text);
 }
 
@@ -154,7 +193,7 @@ Block make_parameter_table(const MachineDifference& cause) {
 Block make_place_table(const PairFindings& findings) {
   Table table{"", {"channel", "run", "phase", "measured less simulated", "unit", "share, %"}, {}};
   for (const Location& at : findings.where) {
-    table.rows.push_back({plain_name(at.channel), at.run, at.phase, fmt::format("{:+.2g}", at.size), at.unit,
+    table.rows.push_back({name_reading(at), at.run, at.phase, fmt::format("{:+.2g}", at.size), at.unit,
                           fmt::format("{:.0f}", at.share_percent)});
   }
   return make_table(table);
@@ -168,9 +207,12 @@ Page make_machine_pair_page(const PairFindings& findings) {
                         findings.sets[1])};
   Section verdict{"Verdict"};
   const char* tone = findings.verdict == PairVerdict::kUnexplained ? "bad" : "good";
-  verdict.blocks.push_back(make_lead(tone, describe_pair(findings)));
+  const bool agree = findings.verdict == PairVerdict::kAgree;
+  verdict.blocks.push_back(make_lead(tone, describe_pair(findings), agree ? "" : describe_rrc(findings)));
   verdict.blocks.push_back(make_pair_tiles(findings));
   if (!findings.warnings.empty()) verdict.blocks.push_back(make_warnings(findings.warnings));
+  const bool is_unknown = findings.verdict == PairVerdict::kUnexplained && !findings.where.empty();
+  if (is_unknown) verdict.blocks.push_back(make_place_bars(findings));
   page.add(std::move(verdict));
   if (std::isfinite(findings.difference.value_N_per_kN)) {
     Section rrc{"Rolling resistance coefficient", "By how much the machines differ, and what remains"};

@@ -194,6 +194,20 @@ Block make_resistance_chart(const RoadLoadProcedure& procedure) {
                      "Points: as tested, with the wind, the slope and the weather of their run.");
 }
 
+/// Checks that failed: "reference speeds (20 to 120 km/h; limit: 20 to 130 km/h)", the first three.
+std::string list_failed_checks(const RoadLoadProcedure& procedure, bool with_limits) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> failed;
+  for (const estimation::RoadLoadCheck& check : procedure.checks) {
+    if (check.status != estimation::CheckStatus::kFail) continue;
+    failed.push_back(with_limits ? fmt::format("{} ({}; limit: {})", check.name, check.found, check.limit)
+                                 : check.name);
+  }
+  const std::size_t more = failed.size() - std::min(failed.size(), kMost);
+  failed.resize(failed.size() - more);
+  return fmt::format("{}{}", fmt::join(failed, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 Block make_procedure_tiles(const RoadLoadProcedure& procedure) {
   constexpr const char* kNotes[] = {"force at standstill; +- is one standard deviation, here and beside",
                                     "rise with speed", "rise with the square of speed"};
@@ -213,7 +227,8 @@ Block make_procedure_tiles(const RoadLoadProcedure& procedure) {
   tiles.push_back({"Checks of the standard",
                    failed == 0 ? "none failed" : fmt::format("{} failed", failed),
                    "",
-                   "of " + format_count(procedure.checks.size(), "check"),
+                   "of " + format_count(procedure.checks.size(), "check") +
+                       (failed == 0 ? "" : ": " + list_failed_checks(procedure, true)),
                    failed == 0 ? "good" : "bad",
                    {}});
   return make_tiles(tiles);
@@ -227,9 +242,10 @@ Block make_procedure_lead(const RoadLoadProcedure& procedure) {
   };
   const auto failed = std::count_if(procedure.checks.begin(), procedure.checks.end(),
                                     [](const auto& check) { return check.status == estimation::CheckStatus::kFail; });
-  const std::string checks = failed == 0 ? "No check of the standard failed."
-                                         : fmt::format("{} of {} of the standard failed.", failed,
-                                                       format_count(procedure.checks.size(), "check"));
+  const std::string checks =
+      failed == 0 ? "No check of the standard failed."
+                  : fmt::format("{} of {} of the standard failed: {}.", failed,
+                                format_count(procedure.checks.size(), "check"), list_failed_checks(procedure, false));
   return make_lead(failed == 0 ? "good" : "bad",
                    fmt::format("The road load at reference conditions is f0 = {}, f1 = {}, f2 = {}. {}", show(0),
                                show(1), show(2), checks));
