@@ -103,10 +103,8 @@ Block make_index_bars(const Json& sensitivity) {
   if (factors.front().contains("total")) {
     Json series = Json::array({make_index_series(factors, "first", "alone", 100.0),
                                make_index_series(factors, "total", "with interactions", 100.0)});
-    const char* note = clip_shares(series)
-                           ? " What so few points put beyond 0 or 100 % is drawn there: the table below "
-                             "has it."
-                           : "";
+    const char* note =
+        clip_shares(series) ? " What reaches beyond 0 or 100 % ends there; the table below has it whole." : "";
     return make_bars({"Share of the variance of " + comparison::label_result(result), "%"}, names, series,
                      fmt::format("The factor with the largest share first. Whiskers: intervals of 95 %.{}", note));
   }
