@@ -107,6 +107,7 @@ std::vector<campaigns::Factor> read_list(const std::string& path) {
   const CsvTable table = CsvTable::read(path);
   for (const std::string& column : table.columns()) {
     factors.push_back({boost::algorithm::trim_copy(column), campaigns::Factor::Kind::kValues, table.text(column)});
+    for (std::string& value : factors.back().values) boost::algorithm::trim(value);
     const auto empty = std::find(factors.back().values.begin(), factors.back().values.end(), "");
     if (empty == factors.back().values.end()) continue;
     throw table.cell_error(static_cast<std::size_t>(empty - factors.back().values.begin()), column,
@@ -396,7 +397,7 @@ CampaignDefinition make_definition(const DiagnosisCampaignInput& input) {
 
 void require_same_program(const CampaignDefinition& definition, const std::string& path) {
   if (definition.version == library_version()) {
-    if (definition.sources.empty() || definition.sources == library_sources()) return;
+    if (definition.sources == library_sources()) return;
     throw InputError(
         {fmt::format("the campaign was begun with other sources of rollrig {}; its results could differ "
                      "from those of this program",

@@ -22,7 +22,7 @@ struct CampaignFile {
 
 struct CampaignDefinition {
   std::string version;  // of rollrig
-  std::string sources;  // as library_sources() says it; empty in a campaign of a rollrig that did not say it
+  std::string sources;  // as library_sources() says it; empty in a campaign of an older rollrig
   std::vector<CampaignFile> files;
   RunInput run;  // without what differs; paths are absolute
   campaigns::DesignInput design;

@@ -75,12 +75,30 @@ void throw_of_option(const InputError& error, const char* option) {
   throw InputError(problem);
 }
 
+namespace {
+
+/// What is wrong with a heading of a list is told of the file.
+std::unique_ptr<campaigns::Design> make_told_design(const CampaignDefinition& definition) {
+  try {
+    return campaigns::make_design(definition.design);
+  } catch (const InputError& error) {
+    if (definition.list.empty()) throw;
+    InputProblem problem = error.problem();
+    problem.file = definition.list;
+    problem.line = 1;
+    problem.key.clear();
+    throw InputError(problem);
+  }
+}
+
+}  // namespace
+
 RunItems::RunItems(const CampaignDefinition& definition)
     : run_(definition.run),
       factors_(definition.design.factors),
       is_list_(definition.design.name == campaigns::kList),
       list_(definition.list),
-      design_(campaigns::make_design(definition.design)) {}
+      design_(make_told_design(definition)) {}
 
 std::vector<std::string> RunItems::list_keys() const {
   std::vector<std::string> keys;
@@ -97,9 +115,17 @@ Json RunItems::describe(std::size_t item) const {
 
 Json RunItems::carry_out(std::size_t item, std::uint64_t seed) const {
   const ReadRecorder recorder;
-  Json result = scenarios::run_scenario(read(calc_values(item), seed), {}).result;
-  require_known(recorder.list_files());
-  return result;
+  try {
+    Json result = scenarios::run_scenario(read(calc_values(item), seed), {}).result;
+    require_known(recorder.list_files());
+    require_unchanged_files(recorder.list_files());
+    return result;
+  } catch (const campaigns::CampaignChanged&) {
+    throw;
+  } catch (const std::exception&) {
+    require_unchanged_files(recorder.list_files());  // else it would count as a failure of the item
+    throw;
+  }
 }
 
 std::vector<std::string> RunItems::find_usual_values() const {
@@ -122,7 +148,7 @@ void RunItems::carry_out_words() const {
     const std::vector<std::string> medians = find_usual_values();
     for (std::size_t f = 0; f < factors_.size(); ++f) {
       for (const std::string& value : factors_[f].values) {
-        if (parse_number(value).has_value()) continue;
+        if (parse_number(value).has_value() || knows(value)) continue;
         std::vector<std::string> values = medians;
         values[f] = value;
         carry_out_quickly(read(values, 1));
@@ -135,7 +161,7 @@ void RunItems::carry_out_words() const {
     const std::vector<std::string> values = calc_values(item);
     bool has_new_word = false;
     for (const std::string& value : values) {
-      if (!parse_number(value).has_value() && words.insert(value).second) has_new_word = true;
+      if (!parse_number(value).has_value() && !knows(value) && words.insert(value).second) has_new_word = true;
     }
     if (has_new_word) carry_out_quickly(read(values, 1));
   }
@@ -173,7 +199,8 @@ void RunItems::check_list() const {
       if (list_.empty() || std::none_of(factors_.begin(), factors_.end(), has_key)) throw;
       InputProblem problem = error.problem();
       problem.file = list_;
-      problem.line = static_cast<int>(item) + 2;  // below the header
+      const bool is_heading = problem.what.rfind("unknown key", 0) == 0;
+      problem.line = is_heading ? 1 : static_cast<int>(item) + 2;
       throw InputError(problem);
     }
   }

@@ -33,6 +33,8 @@ class RunItems : public CampaignItems {
   std::size_t count() const override { return design_->count_items(); }
   Json describe(std::size_t item) const override;
   Json carry_out(std::size_t item, std::uint64_t seed) const override;
+  /// Nothing: carry_out() asks for the files that it has read. A list may have thousands of others.
+  void require_unchanged() const override {}
 
   /// The keys of the factors.
   std::vector<std::string> list_keys() const override;
@@ -54,7 +56,8 @@ class RunItems : public CampaignItems {
   void prepare(const std::vector<std::string>& values) const;
   /// As prepare(); what is wrong with a factor is told of its option.
   void check_at(const std::vector<std::string>& values) const;
-  /// A run for every value that is a word, such as the name of a tire or of a method: each may have a file read.
+  /// A run for every value that is a word, such as the name of a tire or of a method: each may have a file read. Not
+  /// for files that are watched already.
   void carry_out_words() const;
   /// Of a list, whose values belong together. What is wrong with a setting of a row is told with the row.
   void check_list() const;

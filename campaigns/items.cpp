@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <regex>
 #include <set>
+#include <tuple>
 
 #include <boost/algorithm/string/replace.hpp>
 
@@ -66,6 +69,57 @@ Tally read_progress(const std::string& results) {
   return {0, read_count("done"), read_count("failed")};
 }
 
+/// How far the items of a sample are from being spread evenly: over the whole list, and over the values of every factor
+/// that a grid of so many items may have, the first one or a later one. 0: their means are those of all items.
+double calc_unevenness(const std::vector<std::size_t>& sample, std::size_t items,
+                       const std::vector<std::size_t>& divisors) {
+  double worst = 0.0;
+  for (const std::size_t values : divisors) {
+    double first = 0.0, last = 0.0, last_squared = 0.0;  // places among the values, from 0 to 1
+    for (const std::size_t item : sample) {
+      first += static_cast<double>(item * values / items) / static_cast<double>(values - 1);
+      const double place = static_cast<double>(item % values) / static_cast<double>(values - 1);
+      last += place;
+      last_squared += place * place;
+    }
+    const auto count = static_cast<double>(sample.size());
+    const auto n = static_cast<double>(values);
+    const double mean_squared = (2.0 * n - 1.0) / (6.0 * (n - 1.0));
+    worst = std::max({worst, std::abs(first / count - 0.5), std::abs(last / count - 0.5),
+                      std::abs(last_squared / count - mean_squared)});
+  }
+  return worst;
+}
+
+/// The step by which a process goes through its part, again and again, until all items are done. Of steps near the
+/// golden section of the part, that whose first tenth is spread most evenly: a tenth of the work then tells the time of
+/// the rest, whatever factor of a grid the time of an item depends on.
+std::size_t choose_step(const Part& part, std::size_t items_of_all) {
+  constexpr std::size_t kMostSample = 500;  // Assumed: tells enough
+  constexpr std::size_t kMostValues = 200;  // Assumed: of a factor; more are nearly continuous
+  constexpr std::size_t kCandidates = 40;   // Assumed
+  constexpr double kGolden = 0.6180339887498949;
+  const std::size_t items = part.count_of(items_of_all);
+  std::vector<std::size_t> divisors;
+  for (std::size_t values = 2; values <= std::min(kMostValues, items_of_all); ++values) {
+    if (items_of_all % values == 0) divisors.push_back(values);
+  }
+  std::size_t best = 1;
+  double least = std::numeric_limits<double>::infinity();
+  auto step = std::max<std::size_t>(1, static_cast<std::size_t>(kGolden * static_cast<double>(items)));
+  for (std::size_t candidate = 0; candidate < kCandidates && step < std::max<std::size_t>(items, 2); ++step) {
+    if (std::gcd(step, items) > 1) continue;
+    ++candidate;
+    std::vector<std::size_t> sample;
+    for (std::size_t i = 0; i < std::clamp<std::size_t>(items / 10, 1, kMostSample); ++i) {
+      sample.push_back(part.item_of(i * step % items));
+    }
+    const double unevenness = calc_unevenness(sample, items_of_all, divisors);
+    if (unevenness < least) std::tie(least, best) = std::make_pair(unevenness, step);
+  }
+  return best;
+}
+
 /// The items that some files have.
 struct DoneItems {
   std::vector<bool> is_done;
@@ -99,13 +153,10 @@ struct DoneItems {
     return in_use;
   }
 
-  /// Of a part alone, as the next one. Steps of a golden section through the part, so that those of any stretch of the
-  /// work are spread evenly over it and over the values of each factor of a grid: a tenth of the work then tells the
-  /// time of the rest, whatever factor the time of an item depends on.
+  /// Of a part alone, as the next one: equal steps through the part, as choose_step() has them.
   std::vector<std::size_t> list_open(const Part& part) const {
     const std::size_t items = part.count_of(is_done.size());
-    auto step = std::max<std::size_t>(1, static_cast<std::size_t>(0.6180339887498949 * static_cast<double>(items)));
-    while (std::gcd(step, items) > 1) ++step;
+    const std::size_t step = choose_step(part, is_done.size());
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < items; ++i) {
       const std::size_t item = part.item_of(i * step % items);

@@ -22,10 +22,13 @@ struct MpiOptions {
 /// The items that are done, in the first process, which alone says so.
 campaigns::Tally hand_out(const MpiOptions& options, const OpenCampaign& campaign, const campaigns::Ranks& ranks) {
   const std::unique_ptr<CampaignItems> items = campaign.make_watched_items();
-  ProgressLine progress("campaign", options.output.quiet || !ranks.is_first(),
+  if (!ranks.is_first()) return campaigns::hand_out_items(*items, campaign.folder, ranks, {});
+  ProgressLine progress("campaign", options.output.quiet,
                         options.has_program_progress ? ProgressReader::kProgram : ProgressReader::kPerson);
   const auto advance = [&progress](double done) { progress.update(done); };
-  return campaigns::hand_out_items(*items, campaign.folder, ranks, advance);
+  const campaigns::Tally tally = campaigns::hand_out_items(*items, campaign.folder, ranks, advance);
+  advance(1.0);  // also where there was nothing to do
+  return tally;
 }
 
 int run_over_mpi(const MpiOptions& options) {

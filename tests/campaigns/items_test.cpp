@@ -91,10 +91,11 @@ TEST_CASE("parts, interruptions and other splits come to the same results", "[fa
   CHECK(read_state(folder, 50).tally.done == 50);
 }
 
-/// 320 items, as of a grid whose last factor has 16 values; it remembers their order.
+/// Items of a grid; it remembers their order.
 class OrderedItems : public ItemList {
  public:
-  std::size_t count() const override { return 320; }
+  explicit OrderedItems(std::size_t items) : items_(items) {}
+  std::size_t count() const override { return items_; }
   Json describe(std::size_t item) const override { return {{"x", item}}; }
   Json carry_out(std::size_t item, std::uint64_t) const override {
     order_.push_back(item);
@@ -103,27 +104,35 @@ class OrderedItems : public ItemList {
   const std::vector<std::size_t>& order() const { return order_; }
 
  private:
+  std::size_t items_;
   mutable std::vector<std::size_t> order_;
 };
 
-TEST_CASE("a tenth of the work has items with each value of each factor of a grid", "[fast]") {
-  for (const Part& part : {Part{1, 1}, Part{2, 3}}) {
-    INFO(part.number << " of " << part.count);
+TEST_CASE("a tenth of the work tells the time of the rest, whatever factor of a grid it depends on", "[fast]") {
+  struct Grid {
+    std::size_t outer, values, inner;  // the time of an item depends on the middle one: from 1 to 10 times the least
+    Part part = {};
+  };
+  for (const Grid& grid : {Grid{5, 20, 1}, Grid{13, 50, 1, {2, 3}}, Grid{4, 5, 21}, Grid{20, 16, 1}, Grid{1, 16, 20},
+                           Grid{10, 20, 1}, Grid{1, 20, 10}, Grid{50, 32, 1, {2, 3}}, Grid{30, 7, 9}}) {
+    INFO(grid.outer << " x " << grid.values << " x " << grid.inner);
     const TemporaryFolder at;
-    const OrderedItems list;
-    carry_out_items(list, {at.path(), "test", 11}, part, 1);
-    REQUIRE(list.order().size() == part.count_of(320));
+    const OrderedItems list(grid.outer * grid.values * grid.inner);
+    carry_out_items(list, {at.path(), "test", 11}, grid.part, 1);
+    REQUIRE(list.order().size() == grid.part.count_of(list.count()));
     CHECK(std::set<std::size_t>(list.order().begin(), list.order().end()).size() == list.order().size());
-    const std::size_t tenth = list.order().size() / 10;
-    std::set<std::size_t> of_last;
-    std::size_t in_first_half = 0;
-    for (std::size_t i = 0; i < tenth; ++i) {
-      of_last.insert(list.order()[i] % 16);
-      if (list.order()[i] < 160) ++in_first_half;
-    }
-    CHECK(of_last.size() >= std::min<std::size_t>(16, tenth * 6 / 10));
-    CHECK(in_first_half >= tenth / 2 - 1);
-    CHECK(in_first_half <= tenth / 2 + 2);
+    const auto calc_time = [&grid](std::size_t item) {
+      const std::size_t value = item / grid.inner % grid.values;
+      return 1.0 + 9.0 * static_cast<double>(value) / static_cast<double>(grid.values - 1);
+    };
+    double whole = 0.0;
+    for (const std::size_t item : list.order()) whole += calc_time(item);
+    double done = 0.0;
+    std::size_t items = 0;
+    while (done < 0.1 * whole) done += calc_time(list.order()[items++]);
+    const double share = static_cast<double>(items) / static_cast<double>(list.order().size());
+    const double told = done * (1.0 - share) / share;  // as the line of progress has it
+    CHECK(told == Approx(whole - done).epsilon(0.2));
   }
 }
 
