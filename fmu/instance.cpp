@@ -129,12 +129,17 @@ void Instance::set_logging(bool on, const char* const* categories, std::size_t c
 }
 
 void Instance::set_up(double start, double stop) {
+  is_set_up = false;
   require_times(start, stop);
   start_s = start;
   stop_s = stop;
+  is_set_up = true;
 }
 
-void Instance::enter_initialization() { stage = kInitialization; }
+void Instance::enter_initialization() {
+  if (!is_set_up) refuse("the times of the experiment were refused: set it up with others first");
+  stage = kInitialization;
+}
 
 void Instance::exit_initialization() {
   wheel.initialize(start_s);
@@ -147,6 +152,7 @@ void Instance::reset() {
   stage = kInstantiated;
   start_s = 0.0;
   stop_s = std::numeric_limits<double>::infinity();
+  is_set_up = true;
 }
 
 template <class Body>

@@ -81,6 +81,7 @@ struct Instance {
   WarmWheel wheel;
   bool is_co_simulation;
   unsigned stage = kInstantiated;
+  bool is_set_up = true;  // false after times that were refused; without times, the experiment begins at 0
   double start_s = 0.0;
   double stop_s = std::numeric_limits<double>::infinity();
 

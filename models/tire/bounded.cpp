@@ -154,7 +154,11 @@ struct Bounded : TreadAndCarcass {
   static S calc_bounded_dK(const S& temperature_K, const OwnParameters<S>& own) {
     using std::exp;
     using std::log;
-    const auto above = [&](const S& from_K) { return log(S(1.0) + exp((temperature_K - from_K) / own[kLimitWidth])); };
+    constexpr double kLinearFrom = 50.0;  // from here on, log(1 + e^x) is x in double precision; e^x overflows at 709
+    const auto above = [&](const S& from_K) {
+      const S widths = (temperature_K - from_K) / own[kLimitWidth];
+      return value_of(widths) > kLinearFrom ? widths : S(log(S(1.0) + exp(widths)));
+    };
     return own[kLimitWidth] * (above(own[kColdLimit]) - above(own[kHotLimit]));
   }
 };

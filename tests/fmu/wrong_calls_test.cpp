@@ -38,6 +38,10 @@ TEST_CASE("calls out of order are refused with a message", "[fast]") {
   wrong.expect_error(FMI2(fmu, fmi2DoStep)(tire.component, 0.0, 1.0, fmi2True));
   wrong.expect_error(FMI2(fmu, fmi2ExitInitializationMode)(tire.component));
   wrong.expect_error(FMI2(fmu, fmi2Terminate)(tire.component));
+  // An experiment whose times were refused does not begin at others.
+  wrong.expect_error(FMI2(fmu, fmi2SetupExperiment)(tire.component, fmi2False, 0.0, 10.0, fmi2True, 5.0));
+  wrong.expect_error(FMI2(fmu, fmi2EnterInitializationMode)(tire.component));
+  REQUIRE(FMI2(fmu, fmi2SetupExperiment)(tire.component, fmi2False, 0.0, 0.0, fmi2False, 0.0) == fmi2OK);
   tire.initialize();
   wrong.expect_error(FMI2(fmu, fmi2EnterInitializationMode)(tire.component));
   wrong.expect_error(FMI2(fmu, fmi2SetupExperiment)(tire.component, fmi2False, 0.0, 0.0, fmi2False, 0.0));

@@ -144,6 +144,19 @@ TEST_CASE("what is left of an exponential decay is estimated exactly", "[fast]")
   CHECK_FALSE(scenarios::estimate_unsettled({{{30.0, 310.0}, {30.0, 310.0}, {30.0, 310.0}}}).has_value());
 }
 
+TEST_CASE("a narrow transition of the loss to its limit has the loss of a narrower one", "[fast]") {
+  const auto find_rrc = [](const char* width) {
+    return run("iso_28580", "a50", {std::string("tire.bounded.limit_width_K=") + width, "soak_h=0"})
+        .result["rrc_25degC_2m_N_per_kN"]
+        .get<double>();
+  };
+  const double narrow = find_rrc("0.1");
+  for (const char* width : {"0.02", "0.006"}) {
+    INFO(width);
+    CHECK(find_rrc(width) == Approx(narrow).epsilon(1e-3));  // e^((T - T_m)/w) overflows
+  }
+}
+
 TEST_CASE("a truck tire in cycles of ten minutes is too far from steady state to say how far", "[fast]") {
   // Decay by less than a seventh, as of a time constant of 40 min over steps of 4 min.
   const auto slow = [](double time_s) {
