@@ -403,7 +403,9 @@ void require_same_program(const CampaignDefinition& definition, const std::strin
                      "from those of this program",
                      definition.version),
          path, 0, "sources", definition.sources,
-         fmt::format("the program of these sources, or a new campaign; this program has {}", library_sources()), ""});
+         fmt::format("the program whose sources have this hash, or a new campaign; those of this program have {}",
+                     library_sources()),
+         ""});
   }
   throw InputError({fmt::format("the campaign was begun with rollrig {}; its results could differ from those of "
                                 "rollrig {}",

@@ -137,13 +137,13 @@ CampaignState ItemCampaign::merge() const {
   const std::vector<std::string> files = data_->list_filled_files();
   const std::string merged = (fs::path(data_->folder.path) / "results.sqlite").string();
   if (files == std::vector<std::string>{merged}) return read_state();
-  // Throws where a file has items that are none of these.
+  // read_state() throws if a file has an item beyond those of the campaign.
   const std::vector<std::string> running = campaigns::read_state(data_->folder, data_->items->count()).running;
   if (!running.empty()) {
     throw InputError({"a process writes results of this campaign now", running.front(), 0, "", "",
                       "to wait until it has ended; see rollrig campaign status", ""});
   }
-  // What an earlier merge that was cut short has left there are records of this campaign, too.
+  // A file that an interrupted merge has left may be used again: its records are of this campaign.
   const std::string partial = merged + ".partial";
   std::vector<bool> is_merged(data_->items->count());
   campaigns::Store store(partial, data_->folder.definition);  // which only one merge at a time can open

@@ -21,7 +21,7 @@ constexpr std::size_t kMostChecked = 1000;  // Assumed: takes some seconds
 /// is not whole, and each word once.
 std::set<std::size_t> list_telling(const std::vector<std::string>& values) {
   std::map<std::string, std::size_t> words;
-  std::optional<std::size_t> least, largest, broken;
+  std::optional<std::size_t> least, largest, fractional;
   const auto number_at = [&values](std::size_t place) { return parse_number(values[place]).value_or(0.0); };
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::optional<double> number = parse_number(values[i]);
@@ -31,10 +31,10 @@ std::set<std::size_t> list_telling(const std::vector<std::string>& values) {
     }
     if (!least.has_value() || *number < number_at(*least)) least = i;
     if (!largest.has_value() || *number > number_at(*largest)) largest = i;
-    if (!broken.has_value() && *number != std::floor(*number)) broken = i;
+    if (!fractional.has_value() && *number != std::floor(*number)) fractional = i;
   }
   std::set<std::size_t> places;
-  for (const std::optional<std::size_t>& place : {least, largest, broken}) {
+  for (const std::optional<std::size_t>& place : {least, largest, fractional}) {
     if (place.has_value()) places.insert(*place);
   }
   for (const auto& [word, place] : words) places.insert(place);
@@ -77,8 +77,8 @@ void throw_of_option(const InputError& error, const char* option) {
 
 namespace {
 
-/// What is wrong with a heading of a list is told of the file.
-std::unique_ptr<campaigns::Design> make_told_design(const CampaignDefinition& definition) {
+/// Reports errors of headings of a list as errors of its file.
+std::unique_ptr<campaigns::Design> make_design_of(const CampaignDefinition& definition) {
   try {
     return campaigns::make_design(definition.design);
   } catch (const InputError& error) {
@@ -98,7 +98,7 @@ RunItems::RunItems(const CampaignDefinition& definition)
       factors_(definition.design.factors),
       is_list_(definition.design.name == campaigns::kList),
       list_(definition.list),
-      design_(make_told_design(definition)) {}
+      design_(make_design_of(definition)) {}
 
 std::vector<std::string> RunItems::list_keys() const {
   std::vector<std::string> keys;

@@ -20,7 +20,8 @@ constexpr const char* kTireFactor = "tire";
 /// Sets a factor of a sweep or a campaign: the tire, or a setting.
 void set_factor(const std::string& key, const std::string& value, RunInput& run);
 
-/// Whether an error of a run is about the value of a factor, which set_factor() has set.
+/// Whether an error of a run is about the value of a factor, which set_factor() has set. The key of the error may have
+/// a table in front of it: "[settings] load_N".
 bool is_of_factor(const InputError& error, const std::string& key);
 /// Throws the error as one of the option by which the factor was given.
 [[noreturn]] void throw_of_option(const InputError& error, const char* option);
@@ -33,7 +34,7 @@ class RunItems : public CampaignItems {
   std::size_t count() const override { return design_->count_items(); }
   Json describe(std::size_t item) const override;
   Json carry_out(std::size_t item, std::uint64_t seed) const override;
-  /// Nothing: carry_out() asks for the files that it has read. A list may have thousands of others.
+  /// Does nothing: carry_out() checks the files that the item has read. A list may have thousands of others.
   void require_unchanged() const override {}
 
   /// The keys of the factors.
@@ -41,8 +42,9 @@ class RunItems : public CampaignItems {
   /// The value of each factor.
   std::vector<std::string> calc_values(std::size_t item) const override { return design_->calc_values(item); }
   /// Reads and prepares items: of a grid or a list all, if they are at most 1000, else those with the least and the
-  /// largest number of each factor, with a number that is not whole, and with each word; of draws the item at the
-  /// median of each factor. Carries out one item, in the quicker fidelity.
+  /// largest number of each factor, with a number that is not whole, and with each word; if any factor is drawn, the
+  /// median of each factor alone. Then carries out that median or the first item, and one run for each word, in the
+  /// quicker fidelity.
   Check check() const override;
   void check_briefly(bool has_same_assets) const override;
   void learn_names(const Json& result) override { flattener_.learn_names(result); }

@@ -22,7 +22,7 @@ struct Factor {
   std::string calc_value(double probability) const;
 };
 
-/// How many standard deviations above its mean a normal variable lies below with a probability.
+/// The quantile of the standard normal distribution at a probability.
 double calc_score(double probability);
 /// The value of a normal factor at so many standard deviations above the mean.
 std::string calc_normal_value(const Factor& factor, double score);

@@ -70,7 +70,8 @@ Tally read_progress(const std::string& results) {
 }
 
 /// How far the items of a sample are from being spread evenly: over the whole list, and over the values of every factor
-/// that a grid of so many items may have, the first one or a later one. 0: their means are those of all items.
+/// that a grid of so many items may have, the first one or a later one. 0: the mean place of a first factor, and the
+/// mean and the mean square of a later one, equal those of all items.
 double calc_unevenness(const std::vector<std::size_t>& sample, std::size_t items,
                        const std::vector<std::size_t>& divisors) {
   double worst = 0.0;
@@ -91,15 +92,17 @@ double calc_unevenness(const std::vector<std::size_t>& sample, std::size_t items
   return worst;
 }
 
-/// The step by which a process goes through its part, again and again, until all items are done. Of steps near the
-/// golden section of the part, that whose first tenth is spread most evenly: a tenth of the work then tells the time of
-/// the rest, whatever factor of a grid the time of an item depends on.
+/// The step between items that follow one another: item i of the order is i * step, modulo the items of the part. Each
+/// comes once, since the two numbers have no common factor. Of steps near the golden section of the part, that whose
+/// first tenth is spread most evenly: a tenth of the work then tells the time of the rest, whatever factor of a grid
+/// the time of an item depends on.
 std::size_t choose_step(const Part& part, std::size_t items_of_all) {
   constexpr std::size_t kMostSample = 500;  // Assumed: tells enough
   constexpr std::size_t kMostValues = 200;  // Assumed: of a factor; more are nearly continuous
   constexpr std::size_t kCandidates = 40;   // Assumed
   constexpr double kGolden = 0.6180339887498949;
   const std::size_t items = part.count_of(items_of_all);
+  if (items == 0) return 1;
   std::vector<std::size_t> divisors;
   for (std::size_t values = 2; values <= std::min(kMostValues, items_of_all); ++values) {
     if (items_of_all % values == 0) divisors.push_back(values);
@@ -176,7 +179,8 @@ struct DoneItems {
   }
 };
 
-/// Files of processes that divided the items into another number of parts. Only these files can have items of `part`.
+/// All files of results but those of this division into parts. Besides the part's own file, only these can have items
+/// of `part`.
 std::vector<std::string> list_files_of_other_divisions(const CampaignFolder& folder, const Part& part) {
   std::set<std::string> same_division;
   for (std::size_t number = 1; number <= part.count; ++number)

@@ -34,15 +34,15 @@ class ItemList {
   virtual Json carry_out(std::size_t item, std::uint64_t seed) const = 0;
   /// Of an item of a campaign with this seed; carry_out() gets it.
   virtual std::uint64_t calc_seed(std::size_t item, std::uint64_t campaign_seed) const;
-  /// Throws CampaignChanged where what the items are made from, such as a file, is no longer what it was. Called after
-  /// each item, before its result counts.
+  /// Throws CampaignChanged if what the items are made from, such as a file, is no longer what it was. Called after
+  /// each item, before its result counts. A list may check this in carry_out() instead, and leave this empty.
   virtual void require_unchanged() const {}
 };
 
 /// Where a campaign is, and what it is.
 struct CampaignFolder {
   std::string path;
-  std::string definition;  // tells its results from those of others: SHA-256 of what defines it, such as campaign.json
+  std::string definition;  // SHA-256 of what defines it, such as campaign.json; tells its results from those of others
   std::uint64_t seed = 1;  // from which those of the items follow
 
   /// The file of a part's results: "results_0003_of_0010.sqlite".
@@ -121,7 +121,7 @@ class ResultsFile {
 Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Part& part, int threads,
                       const std::function<void(double)>& advance = {});
 
-/// Removes what a process that was killed has said of a file of results.
+/// Removes the `.progress` file that a killed process left beside a file of results.
 void remove_progress(const std::string& results);
 
 /// What is done of all items. Files that a process writes now are counted by what it says in `<file>.progress`.

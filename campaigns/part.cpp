@@ -60,7 +60,7 @@ bool is_set(const Environment& environment, const char* name, const std::string&
   return value != nullptr && *value != '\0' && value != means_none;
 }
 
-/// Throws InputError where this process is one of several of which it cannot know the number.
+/// Throws InputError if this process is one of several and the environment does not say how many there are.
 void refuse_uncounted(const Environment& environment, bool is_process_counted) {
   const auto refuse = [](const char* name, const char* value) {
     throw InputError(
@@ -109,7 +109,10 @@ Part make_part(const char* name, std::size_t part, std::size_t parts) {
 /// Of a job array whose tasks are numbered from `first` to `last`, `step` apart.
 Part make_array_part(const char* name, std::size_t id, std::size_t first, std::size_t last, std::size_t step) {
   step = std::max<std::size_t>(step, 1);
-  if (id < first || last < first) return make_part(name, 0, 0);
+  if (id < first || last < first) {
+    throw InputError({fmt::format("the variable {} says task {}, outside of {} to {}", name, id, first, last),
+                      "environment", 0, name, std::to_string(id), "what the batch system sets, or --shard I/N", ""});
+  }
   return make_part(name, (id - first) / step + 1, (last - first) / step + 1);
 }
 
@@ -141,7 +144,7 @@ std::size_t read_digits(const std::string& text) {
   return error == std::errc() && stop == end ? number : 0;
 }
 
-/// A number without a period. Source: Steele, Lea, Flood, OOPSLA 2014, SplitMix64
+/// A pseudorandom hash of a number. Source: Steele, Lea, Flood, OOPSLA 2014, SplitMix64
 std::uint64_t mix(std::uint64_t number) {
   number += 0x9e3779b97f4a7c15U;
   number = (number ^ (number >> 30U)) * 0xbf58476d1ce4e5b9U;

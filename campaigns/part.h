@@ -9,16 +9,16 @@
 namespace rollrig::campaigns {
 
 /// Part `number` of `count` parts, from 1. It has one of the first `count` items, one of the next `count` items, and so
-/// on. Neighboring items, which often take equally long, thus go to different processes. Which one it has changes from
-/// block to block without a period, so that the values of a grid's last factor are spread over all parts, too.
+/// on. Neighboring items, which often take equally long, thus go to different processes. Which one it has is
+/// pseudorandom from block to block, so that the values of a grid's last factor are spread over all parts, too.
 struct Part {
   std::size_t number = 1;
   std::size_t count = 1;
 
-  /// Its item among those from `block` * count on.
+  /// Its item in a block: one of block * count to block * count + count - 1.
   std::size_t item_of(std::size_t block) const;
   bool has(std::size_t item) const { return item_of(item / count) == item; }
-  /// Of so many items, how many it has.
+  /// How many of the first `items` items it has.
   std::size_t count_of(std::size_t items) const;
 };
 

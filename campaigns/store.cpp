@@ -112,7 +112,8 @@ bool is_marked_as_logged(const std::string& path) {
   return in.get() == 2;
 }
 
-/// Whether another process writes a file, or looks at this moment whether one does.
+/// Whether another process writes a file, or looks at this moment whether one does. Also writes the log that a killed
+/// process has left into the file.
 bool is_locked(const std::string& path) {
   if (!has_log(path)) return false;
   try {
@@ -164,7 +165,7 @@ bool has_tables(SQLite::Database& database, const std::string& path, const std::
   SQLite::Statement query(database, "SELECT definition FROM campaign");
   if (query.executeStep()) {
     const std::string stored = query.getColumn(0).getString();
-    if (stored == definition || calc_sha256(stored) == definition) return true;  // the whole text in older files
+    if (stored == definition || calc_sha256(stored) == definition) return true;  // older files hold the whole text
   }
   throw InputError(
       {"the results are those of another campaign", path, 0, "", "", "results of the campaign.json beside them", ""});
@@ -201,7 +202,7 @@ Record read_row(SQLite::Statement& row) {
   return record;
 }
 
-/// Puts the records of a file from item `first` on, before item `end`, to those of other files.
+/// Adds the records of a file with first <= item < end to `block`.
 void add_records(const std::string& path, std::int64_t first, std::int64_t end, std::map<std::size_t, Record>& block) {
   SQLite::Database file = open_to_read(path);
   if (!file.tableExists("items")) return;

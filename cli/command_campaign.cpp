@@ -286,7 +286,7 @@ void add_campaign_command(CLI::App& app, Action& action) {
                       "Under mpirun: the first process hands out the items to the others, a few at a time");
     add_threads(*command, options->threads);
     command->add_flag("--progress", options->has_program_progress,
-                      "Each second a line of JSON on standard error: the part that is done, and the seconds left");
+                      "Each second a line of JSON on standard error: the fraction that is done, and the seconds left");
     add_json(*command, options->output, "File for the counts of items, - for standard output");
   }
   {

@@ -12,8 +12,9 @@
 
 namespace rollrig::cli {
 
-/// Who reads the progress: a person, or a program, which gets a line of JSON each second and one at the end:
-/// {"done":0.3100,"seconds_left":12.3}. `seconds_left` is null where nothing is done yet.
+/// Who reads the progress: a person, or a program, which gets a line of JSON each second and one when all is done:
+/// {"done":0.3100,"seconds_left":12.3}. `seconds_left` is null if nothing is done yet. A program gets these lines also
+/// where a person wants nothing but errors.
 enum class ProgressReader { kPerson, kProgram };
 
 /// Writes to standard error. On a terminal, it updates one line, from 2 s on. Elsewhere, as in the log of a CI job, it

@@ -56,7 +56,8 @@ void add_interval(double sd, double coverage_factor, Difference& difference);
 /// Says of a difference that has a value why it has no interval.
 void add_reason(const std::string& why, Difference& difference);
 
-/// "-0.738" and "-0.795 to -0.680": both with the decimals that give the larger limit three digits. "-" without them.
+/// "-0.738" and "-0.795 to -0.680": both with the decimals that give the largest of the three numbers three digits. "-"
+/// where there is no value or no interval.
 std::string show_difference(const Difference& difference);
 std::string show_interval(const Difference& difference);
 

@@ -129,15 +129,15 @@ void Instance::set_logging(bool on, const char* const* categories, std::size_t c
 }
 
 void Instance::set_up(double start, double stop) {
-  is_set_up = false;
+  were_times_refused = true;  // unless they are in order
   require_times(start, stop);
   start_s = start;
   stop_s = stop;
-  is_set_up = true;
+  were_times_refused = false;
 }
 
 void Instance::enter_initialization() {
-  if (!is_set_up) refuse("the times of the experiment were refused: set it up with others first");
+  if (were_times_refused) refuse("the times of the experiment were refused: set it up with others first");
   stage = kInitialization;
 }
 
@@ -152,7 +152,7 @@ void Instance::reset() {
   stage = kInstantiated;
   start_s = 0.0;
   stop_s = std::numeric_limits<double>::infinity();
-  is_set_up = true;
+  were_times_refused = false;
 }
 
 template <class Body>
@@ -262,6 +262,7 @@ void Instance::set_state(void* state) {
   next_start_s_.reset();
   start_s = saved.start_s;
   stop_s = saved.stop_s;
+  were_times_refused = false;
   stage = wanted;
 }
 

@@ -81,7 +81,7 @@ struct Instance {
   WarmWheel wheel;
   bool is_co_simulation;
   unsigned stage = kInstantiated;
-  bool is_set_up = true;  // false after times that were refused; without times, the experiment begins at 0
+  bool were_times_refused = false;  // by set_up(), and none were accepted since
   double start_s = 0.0;
   double stop_s = std::numeric_limits<double>::infinity();
 

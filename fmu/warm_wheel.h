@@ -103,7 +103,8 @@ class WarmWheel {
   /// Sets only the time, for a solver of the caller's.
   void set_time(double time_s);
   /// Goes on by `duration_s` [s], more than 0 and at most 1e5 steps of the integrator long. Inputs with a slope end
-  /// where it leads. Throws InputError, which names the parameter, where steps would be shorter than kShortestStep_s.
+  /// where it leads. If steps would have to be shorter than kShortestStep_s, throws an InputError that names the
+  /// parameter where the parameters alone cause it, else a RunFailure.
   void advance(double duration_s);
 
   /// In the units of their variables.

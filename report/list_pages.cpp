@@ -137,7 +137,7 @@ std::string describe_status(const std::string& status, std::size_t count) {
 
 /// Worst difference of each run that was compared; the axis goes to 1 at least, from which on a run differs.
 Block make_regress_bars(const Json& names, const Json& shares) {
-  Block bars = make_bars({"Worst difference of each run from its stored result", "of its tolerance", true}, names,
+  Block bars = make_bars({"Worst difference from the stored result", "of its tolerance", true}, names,
                          Json::array({{{"name", "worst"}, {"values", shares}}}),
                          "A run differs where its bar is above 1. Runs without a stored result have no bar.");
   bars["least_end"] = 1.0;

@@ -18,8 +18,8 @@ std::pair<std::size_t, std::size_t> find_rows(const sim::Recording<double>& reco
           static_cast<std::size_t>(last - recording.phase.begin())};
 }
 
-/// The rows [first, last) without their first, where they follow those of another phase: a row is a mean over its
-/// sample, and that one lies in both phases. One that stands alone is kept.
+/// The first of the rows [first, last) that counts. A row is a mean over its sample, so that the first row of a phase
+/// lies across the boundary. It is skipped, unless it is the only one.
 std::size_t skip_joint(std::size_t first, std::size_t last) {
   return first > 0 && last - first > 1 ? first + 1 : first;
 }

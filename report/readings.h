@@ -18,10 +18,11 @@ Json make_row_times(const std::vector<double>& time_s);
 Json make_recorded(const std::vector<double>& time_s, const std::vector<double>& values);
 
 /// For each phase of a recording [mean over time, least, most, last] of its rows, or null where it has no value. The
-/// row at the end of a phase belongs to the next one, and counts in neither: it is a mean across both.
+/// first row of a phase is a mean over the end of the phase before it, too, and counts in neither, unless it is the
+/// only one of its phase.
 /// Checked  tests/report/readings_test.cpp
 Json summarize_phases(const sim::Recording<double>& recording, const std::vector<double>& values);
-/// The same of spans of time, each with the rows from its start to before its end; of the last, its end too.
+/// The same of spans of time, each with the rows after its start and before its end; of the last, its end too.
 Json summarize_spans(const std::vector<double>& time_s, const std::vector<double>& values,
                      const std::vector<std::pair<double, double>>& spans_s);
 

@@ -23,12 +23,13 @@ Block make_animation(const scenarios::RunSpec& spec, const sim::Recording<double
 /// what they follow from. On a vehicle of the first wheel that rolls.
 std::optional<Block> make_cross_section(const scenarios::RunSpec& spec, const sim::Recording<double>& recording);
 
-/// The chart that shows the result of a run at a glance: road load over speed, resistance from cycle to cycle, the
-/// parts of a loss; else rolling resistance over the time under load. None where there is nothing of these.
+/// The chart that shows the result of a run at a glance: road load over speed, energy by section, resistance from cycle
+/// to cycle, the parts of a loss; else rolling resistance over the time under load. None where there is nothing of
+/// these.
 std::optional<Block> make_first_figure(const Json& result, const sim::Recording<double>& recording);
 
-/// The other figures of `result`: rolling energy by section with that by the ISO coefficient beside it, resistance from
-/// cycle to cycle. No blocks where it has nothing of these.
+/// The other figures of `result`: temperatures by section, forces and coefficients by cycle. No blocks where it has
+/// nothing of these.
 Section make_run_figures(const Json& result);
 
 /// The coastdowns of `result` one over the other, and their times through bins of speed; no blocks where it has none.

@@ -235,8 +235,8 @@ Block make_map(const std::string& result, const Json& means) {
   return block;
 }
 
-/// "97 %" of a share, with the name of what it is.
-std::string show_percent_of(double share) {
+/// "97 %" of 0.97, kept within 0 to 100 %.
+std::string show_share(double share) {
   const double percent = 100.0 * std::clamp(share, 0.0, 1.0);  // an estimate of few points may lie beyond
   return fmt::format("{:.{}f} %", percent, percent < 10.0 ? 1 : 0);
 }
@@ -252,12 +252,12 @@ std::string describe_sensitivity(const Json& sensitivity, const std::vector<Fact
   std::string text =
       fmt::format("{} depends most on {}: ", capitalized(comparison::label_result(result)), name_factor(factors[0]));
   const auto size = [&](const Json& factor) {
-    if (is_sobol) return show_percent_of(factor["total"]["value"].get<double>());
+    if (is_sobol) return show_share(factor["total"]["value"].get<double>());
     const std::string step = describe_step(factor["key"], scatters);
     return fmt::format("{} {}{}{}", show_change(factor), unit, has_one_sign(factor) ? "" : " up or down",
                        step.empty() ? "" : " " + step);
   };
-  text += is_sobol ? fmt::format("it makes {} of the variance", size(factors[0]))
+  text += is_sobol ? fmt::format("it accounts for {} of the variance", size(factors[0]))
                    : fmt::format("it changes by {}", size(factors[0]));
   for (std::size_t i = 1; i < std::min(kMost, factors.size()); ++i) {
     others.push_back(fmt::format("{} {}", name_factor(factors[i]), size(factors[i])));
@@ -278,7 +278,7 @@ Block make_sensitivity_tiles(const Json& sensitivity, const std::vector<FactorSc
     const std::string name = capitalized(name_factor(factor));
     if (factor.contains("total")) {
       tiles.push_back({name,
-                       fmt::format("{:.1f} %", 100.0 * factor["total"]["value"].get<double>()),
+                       fmt::format("{:.1f} %", 100.0 * std::clamp(factor["total"]["value"].get<double>(), 0.0, 1.0)),
                        "",
                        fmt::format("of the variance with interactions; alone {:.1f} %",
                                    100.0 * factor["first"]["value"].get<double>()),

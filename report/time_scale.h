@@ -8,8 +8,8 @@
 
 namespace rollrig::report {
 
-/// Rows that set the scale of a drum's panels: those in which the tire carries its load or the speed is steady, where
-/// readings are taken. Run-up and the moment of a change of load reach far beyond.
+/// Rows that set the scale of a drum's panels: the drum turns at steady speed, and the load has not changed in the last
+/// rows. Run-up and the moment of a change of load reach far beyond.
 std::vector<bool> find_scale_rows(const std::vector<double>& time_s, const std::vector<double>& load_N,
                                   const std::vector<double>& speed_m_s);
 

@@ -40,7 +40,7 @@ const char* rollrig_last_error(void);
    of the state "x", in the unit of "x" per second. docs/fmu.md lists the variables. */
 typedef struct rollrig_wheel rollrig_wheel;
 
-/* tire, rig: the name of an asset, a path, or the text of such a file. */
+/* tire, rig: text with a line break is the content of a file; other text is the name of an asset or a path. */
 rollrig_wheel* rollrig_wheel_create(const char* tire, const char* rig);
 void rollrig_wheel_free(rollrig_wheel* wheel);
 
@@ -70,7 +70,7 @@ int rollrig_wheel_start(rollrig_wheel* wheel, double time_s);
 /* Goes on by step_s [s], more than 0 and at most 1e5 times steps.longest_s, and up to the time 1e10 s.
    Equations: docs/physics.md, DrivenWheel; Runge-Kutta of order 4. Validity: docs/limits_of_validity.md.
    Errors: ROLLRIG_INPUT_ERROR for a step or a slope that is not allowed, ROLLRIG_RUN_FAILED for a state that no tire
-   can have; after either, nothing has changed. */
+   can have, or one whose steps would have to be shorter than 1e-4 s; after either, nothing has changed. */
 int rollrig_wheel_step(rollrig_wheel* wheel, double step_s);
 /* Back to how it was created: parameters and inputs have their start values, and may be set. */
 int rollrig_wheel_reset(rollrig_wheel* wheel);
@@ -101,7 +101,7 @@ int rollrig_wheel_load(rollrig_wheel* wheel, const char* bytes, int size);
 typedef struct rollrig_run rollrig_run;
 
 /* input: JSON with "scenario", which may be a run file, and where wanted "tire", "rig", "vehicle", "fidelity",
-   "baseline", "sensors", "seed" (texts), and "settings", an object: {"scenario": "warm_up", "tire": "a50",
+   "baseline", "sensors", "seed" (texts; the seed may be a number), and "settings", an object: {"scenario": "warm_up", "tire": "a50",
    "settings": {"speed_km_h": 120}}. An object in an object stands for names with a dot: {"effects": {"slow_leak": {}}}
    switches an effect on. What is null is as if it were not there. */
 rollrig_run* rollrig_run_carry_out(const char* input);

@@ -28,7 +28,7 @@ class CampaignState(Report):
 
     @property
     def done(self) -> int:
-        """Number of items that are done, with those that failed."""
+        """Number of items that are done, including those that failed."""
         return self._made.done
 
     @property

@@ -22,8 +22,8 @@ class Error(Exception):
 class InputError(Error, ValueError):
     """An error in what the user gave; nothing is written.
 
-    The attributes are those of the messages on the command line: `what` is wrong, in one sentence; the `file` and the
-    `line` in it ("--set" for settings); the `key`, its `value` as given, what is `allowed`, and the `nearest` known
+    The attributes are those of the messages on the command line: `what` is wrong, in one sentence; the `file` ("--set"
+    for settings) and the `line` in it; the `key`, its `value` as given, what is `allowed`, and the `nearest` known
     name. What a message does not have is None.
     """
 

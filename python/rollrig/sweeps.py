@@ -57,7 +57,7 @@ class SweepResult(Report):
 
     @property
     def failures(self) -> list[str]:
-        """Of each point why it could not be simulated; empty where it could."""
+        """For each point the reason why it failed, or an empty text."""
         return self._made.failures
 
     def to_pandas(self) -> Any:

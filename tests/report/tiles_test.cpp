@@ -255,7 +255,7 @@ TEST_CASE("a sensitivity says which factor matters and how much, and its map is 
   const report::Page page = report::make_sensitivity_page(sensitivity, table, "", scatters);
   const std::vector<report::Block>& blocks = page.sections.front().blocks;
   CHECK(blocks[0]["text"] ==
-        "RRc depends most on ambient: it makes 98 % of the variance; pressure 1.3 % (with interactions).");
+        "RRc depends most on ambient: it accounts for 98 % of the variance; pressure 1.3 % (with interactions).");
   REQUIRE(blocks[1]["tiles"].size() == 3);
   CHECK(blocks[1]["tiles"][0]["value"] == "97.8 %");
   CHECK(blocks[2]["type"] == "bars");

@@ -1,11 +1,11 @@
-// Where sheets of paper end. What may not be cut goes to the next sheet as a whole: a high chart would leave half a sheet
+// Page breaks in print. What may not be cut goes to the next sheet as a whole: a high chart would leave half a sheet
 // empty, and is made lower by as much as it lacks. A last sheet with a few lines is taken onto the one before likewise.
 import { chartsIn } from './chart.js';
 
 const kSheet_px = (297 - 2 * 16) / 25.4 * 96; // A4 without the margins of style.css
-const kLeastFilled = 0.55; // of a sheet, below which it is worth to make the next chart lower
+const kLeastFilled = 0.55; // of a sheet, below which it is worth making the next chart lower
 const kMostLess = 0.45; // of a chart's height
-const kLeast_px = 150; // of a chart's height
+const kLeast_px = 120; // of a chart's height
 const kLastLines = 0.15; // of a sheet
 
 /// What is not cut, in order: a heading and what follows it are one.
@@ -68,7 +68,7 @@ export function fillSheets() {
   const charts = listWholes().map(({ chart }) => chart).filter(Boolean).reverse();
   let needed = last * kSheet_px + 12;
   for (const chart of charts) {
-    const by_px = Math.min(needed, 0.25 * chart.element.offsetHeight);
+    const by_px = Math.min(needed, 0.4 * chart.element.offsetHeight);
     if (lower(chart, by_px)) needed -= by_px;
     if (needed <= 0) return;
   }

@@ -21,6 +21,10 @@ const isLying = (block, width) => width / block.categories.length < kLeast_px;
 const kTick_px = 70; // from one number of a lying axis to the next, at least about so
 const kCategoryGap = 0.3, kBarGap = 0.08; // of a category's width, and of a bar's
 const widestBar = (lying) => (lying ? 22 : 72);
+const kNameLine_px = 12; // of the name of a lying bar
+const nameWidth = (width) => Math.min(230, 0.42 * width);
+/// How many lines a name takes beside a lying bar, about: a letter has 6 px, and words leave ends of lines empty.
+const countLines = (name, width) => Math.ceil((1.2 * 6 * name.length) / nameWidth(width));
 
 /// Intervals as whiskers on the bars of one series.
 function whiskers(series, k, count, lying) {
@@ -64,7 +68,7 @@ function makeOption(block, width) {
   }));
   const names = { ...axis, type: 'category', data: block.categories, inverse: lying, splitLine: { show: false }, axisTick: { show: false },
     axisLabel: { ...axis.axisLabel, formatter: (name) => name.replaceAll('/', '\u2215'), interval: 0, // no break inside of km/h
-      hideOverlap: false, width: lying ? Math.min(230, 0.42 * width) : width / block.categories.length - 8, overflow: 'break', lineHeight: lying ? 12 : 14 } };
+      hideOverlap: false, width: lying ? nameWidth(width) : width / block.categories.length - 8, overflow: 'break', lineHeight: lying ? kNameLine_px : 14 } };
   const values = { ...axis, type: 'value', axisLine: { show: false }, axisTick: { show: false },
     splitNumber: lying ? Math.max(2, Math.floor((0.6 * width) / kTick_px)) : 5,
     max: block.least_end ? ({ max }) => (max < block.least_end ? block.least_end : null) : null };
@@ -84,7 +88,8 @@ function makeOption(block, width) {
 function heightOf(block, width) {
   const legend = legendOf(block, width).height;
   if (!isLying(block, width)) return (width < 600 ? 340 : 300) + legend;
-  return 60 + legend + block.categories.length * Math.max(26, 10 + 16 * block.series.length);
+  const lines = Math.max(...block.categories.map((name) => countLines(name, width)));
+  return 60 + legend + block.categories.length * Math.max(26, 10 + 16 * block.series.length, 8 + kNameLine_px * lines);
 }
 
 function makeNumbers(block) {
