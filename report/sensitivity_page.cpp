@@ -236,7 +236,7 @@ Block make_map(const std::string& result, const Json& means) {
 }
 
 /// "97 %" of 0.97, kept within 0 to 100 %.
-std::string show_share(double share) {
+std::string show_variance_share(double share) {
   const double percent = 100.0 * std::clamp(share, 0.0, 1.0);  // an estimate of few points may lie beyond
   return fmt::format("{:.{}f} %", percent, percent < 10.0 ? 1 : 0);
 }
@@ -252,7 +252,7 @@ std::string describe_sensitivity(const Json& sensitivity, const std::vector<Fact
   std::string text =
       fmt::format("{} depends most on {}: ", capitalized(comparison::label_result(result)), name_factor(factors[0]));
   const auto size = [&](const Json& factor) {
-    if (is_sobol) return show_share(factor["total"]["value"].get<double>());
+    if (is_sobol) return show_variance_share(factor["total"]["value"].get<double>());
     const std::string step = describe_step(factor["key"], scatters);
     return fmt::format("{} {}{}{}", show_change(factor), unit, has_one_sign(factor) ? "" : " up or down",
                        step.empty() ? "" : " " + step);
