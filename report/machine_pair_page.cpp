@@ -20,7 +20,7 @@ constexpr std::size_t kMostBars = 8;
 /// What differs: a torque is given as force at the surface of the drum.
 std::string name_reading(const Location& at) {
   const bool is_torque = unit_of_key(at.channel).symbol != at.unit && at.unit == "N";
-  return plain_name(at.channel) + (is_torque ? " (as force at the surface)" : "");
+  return plain_name(at.channel) + (is_torque ? " (as force)" : "");
 }
 
 /// Where their readings differ most.

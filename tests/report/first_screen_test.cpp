@@ -177,7 +177,7 @@ TEST_CASE("two machines that differ in an unknown effect: the first screen says 
   const report::Page page = report::make_machine_pair_page(findings);
   const Json lead = page.sections.front().blocks.front();
   const std::string text = lead["text"];
-  CHECK_THAT(text, Catch::Contains("drum torque (as force at the surface): -1.3 N beside the simulation (run A: "
+  CHECK_THAT(text, Catch::Contains("drum torque (as force): -1.3 N beside the simulation (run A: "
                                    "speed-120, 120 km/h 5.4 kN)"));
   CHECK(lead["more"] == "No difference in RRc itself is shown: RRc on A less that on B is -0.107 +- 0.325 N/kN.");
   const Json bars = find_block(page, "bars");
