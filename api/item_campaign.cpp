@@ -82,9 +82,10 @@ std::vector<std::string> write_definition(const std::string& folder, const std::
   definition.files = found.files;
   try {
     write_folder(folder, {{kCampaignFileName, definition.to_text()}});
-  } catch (const InputError& error) {  // another process has made it meanwhile
+  } catch (const InputError& error) {
     InputProblem problem = error.problem();
-    problem.allowed = "a new or an empty folder";
+    if (problem.allowed.find("--force") == std::string::npos) throw;
+    problem.allowed = "a new or an empty folder";  // another process has made it meanwhile
     throw InputError(problem);
   }
   return found.warnings;

@@ -242,15 +242,21 @@ std::vector<Tile> make_equal_tiles(const Json& sweep, const Headlines& headlines
   return tiles;
 }
 
-/// The first result's range, and its sensitivity to each axis.
-std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::string& key, const std::string& name) {
-  const std::vector<double> values = list_results(sweep, key);
+/// The places of the least and the largest value; the number of values where none is a number.
+std::pair<std::size_t, std::size_t> find_extremes(const std::vector<double>& values) {
   std::size_t lowest = values.size(), highest = values.size();
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isnan(values[i])) continue;
     if (lowest == values.size() || values[i] < values[lowest]) lowest = i;
     if (highest == values.size() || values[i] > values[highest]) highest = i;
   }
+  return {lowest, highest};
+}
+
+/// The first result's range, and its sensitivity to each axis.
+std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::string& key, const std::string& name) {
+  const std::vector<double> values = list_results(sweep, key);
+  const auto [lowest, highest] = find_extremes(values);
   if (lowest == values.size()) return {};
   if (!(values[lowest] < values[highest])) return {make_point_tile(sweep, lowest, key, name)};
   std::vector<Tile> tiles;
@@ -273,12 +279,7 @@ std::vector<Tile> make_sweep_tiles(const Json& sweep, const std::string& key, co
 std::string describe_sweep(const Json& sweep, const std::vector<std::string>& axes, const std::string& key,
                            const std::string& name) {
   const std::vector<double> values = list_results(sweep, key);
-  std::size_t lowest = values.size(), highest = values.size();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isnan(values[i])) continue;
-    if (lowest == values.size() || values[i] < values[lowest]) lowest = i;
-    if (highest == values.size() || values[i] > values[highest]) highest = i;
-  }
+  const auto [lowest, highest] = find_extremes(values);
   if (lowest == values.size()) return "";
   const auto place = [&](std::size_t i) { return name_sweep_line(sweep["points"][i], axes); };
   if (!(values[lowest] < values[highest])) {
@@ -295,11 +296,10 @@ std::string describe_sweep(const Json& sweep, const std::vector<std::string>& ax
   }
   const std::string changes = slopes.empty() ? "" : fmt::format(": {}", fmt::join(slopes, " and "));
   if (axes.size() == 1 && is_numeric_axis(sweep, axes.front())) {
-    const bool is_monotonic = !slopes.empty();
-    const std::size_t from = is_monotonic && falls ? highest : lowest, to = is_monotonic && falls ? lowest : highest;
-    return fmt::format("{} {} {} at {} to {} at {}{}.", name,
-                       is_monotonic ? falls ? "falls from" : "rises from" : "goes from", show_result(values[from], key),
-                       place(from), show_result(values[to], key), place(to), changes);
+    const char* const moves = slopes.empty() ? "goes" : falls ? "falls" : "rises";
+    const auto [from, to] = falls ? std::pair(highest, lowest) : std::pair(lowest, highest);
+    return fmt::format("{} {} from {} at {} to {} at {}{}.", name, moves, show_result(values[from], key), place(from),
+                       show_result(values[to], key), place(to), changes);
   }
   return fmt::format("{} is lowest with {}, {}, and highest with {}, {}{}.", name, place(lowest),
                      show_result(values[lowest], key), place(highest), show_result(values[highest], key), changes);

@@ -85,8 +85,7 @@ std::optional<std::string> doubt_copied_machine(const AlignmentFile& file) {
   if (calc_binomial_tail(values, found_by_chance / values, found) > kCopiedMachineChance) return std::nullopt;
   return fmt::format(
       "{:.0f} of the {:.0f} used values of machine '{}' are equal to values of the same tire on machine '{}': were "
-      "they "
-      "copied?",
+      "they copied?",
       found, values, file.machine, file.reference_machine);
 }
 

@@ -204,7 +204,7 @@ void check_format(TableReader& reader, const std::string& kind, int newest_versi
   const bool same_kind = given.rfind(kind + "/", 0) == 0;
   throw reader.problem("format",
                        same_kind ? fmt::format("format version '{}' is not known to this program", given)
-                                 : fmt::format("this is not {} file but '{}'", kind, given),
+                                 : fmt::format("this is not a {} file but '{}'", kind, given),
                        fmt::format("format = \"{}\"", wanted));
 }
 
