@@ -290,14 +290,14 @@ std::vector<Tile> make_gap_tiles(const Findings& findings) {
     return {{"Gap",
              show(judged.before),
              "noise floors",
-             fmt::format("measured less simulated, over its noise; {}", where),
+             fmt::format("measured minus simulated, over its noise; {}", where),
              "",
              {"/gap/recalibrated/before"}}};
   }
   return {{"Gap before",
            show(judged.before),
            "noise floors",
-           fmt::format("measured less simulated, over its noise; {}", where),
+           fmt::format("measured minus simulated, over its noise; {}", where),
            "",
            {"/gap/recalibrated/before"}},
           {"Gap with the cause",
@@ -315,7 +315,7 @@ Block make_gap_bars(const Findings& findings) {
   if (shows_cause(findings)) {
     series.push_back({{"name", "recalibrated, with the cause"}, {"values", {rounded(gap.recalibrated.after)}}});
   }
-  return make_bars({"Gap: measured less simulated, without noise", "noise floors"}, {name_judge(findings)}, series,
+  return make_bars({"Gap: measured minus simulated, without noise", "noise floors"}, {name_judge(findings)}, series,
                    "One noise floor is the standard deviation of a mean over ten seconds. Recalibrated: the numbers of "
                    "the files are moved within their uncertainties.");
 }

@@ -150,7 +150,7 @@ Block make_drum_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit)
   }
   Json series = Json::array();
   for (const auto& [name, points] : by_state) series.push_back(points.finish(name));
-  Block block = make_curves({"Speed", "km/h"}, {"Measured less fitted speed", "mm/s"}, series,
+  Block block = make_curves({"Speed", "km/h"}, {"Measured minus fitted speed", "mm/s"}, series,
                             stride > 1 ? fmt::format("Every {}th row.", stride) : "Every row.");
   block["marks"] = {0.0};
   return block;

@@ -45,7 +45,7 @@ std::vector<Block> make_gap_waterfalls(const Gap& gap) {
           ? " Where effects overlap, the order matters: the first of them takes what each of them could."
           : "";
   const std::string how =
-      "Root mean square of measured less simulated, without noise and offsets, on the data that the fits saw. Each "
+      "Root mean square of measured minus simulated, without noise and offsets, on the data that the fits saw. Each "
       "effect is added to those above it, and all numbers are fitted again." +
       order;
   std::vector<Block> blocks;

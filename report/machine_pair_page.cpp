@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/algorithm/string/replace.hpp>
 #include <cmath>
 
 #include "diagnosis/output/machine_pair_output.h"
@@ -27,7 +26,7 @@ std::string name_reading(const Location& at) {
 std::string describe_readings(const PairFindings& findings) {
   if (findings.where.empty()) return "their readings differ";
   const Location& at = findings.where.front();
-  return fmt::format("their readings differ, most in the {}: {:+.2g} {} beside the simulation in run {}, {}",
+  return fmt::format("their readings differ most in the {}: measured minus simulated is {:+.2g} {} (run {}, {})",
                      name_reading(at), at.size, at.unit, at.run, at.phase);
 }
 
@@ -36,7 +35,7 @@ std::string describe_rrc(const PairFindings& findings) {
   const RrcEstimate& at = findings.difference;
   if (!std::isfinite(at.value_N_per_kN)) return "";
   const bool shows_none = at.low_95_N_per_kN < 0.0 && at.high_95_N_per_kN > 0.0;
-  return fmt::format("{}: RRc on A less that on B is {:+.3f} +- {:.3f} N/kN.",
+  return fmt::format("{}: RRc on A minus that on B is {:+.3f} +- {:.3f} N/kN.",
                      shows_none ? "No difference in RRc itself is shown" : "RRc differs as well", at.value_N_per_kN,
                      0.5 * (at.high_95_N_per_kN - at.low_95_N_per_kN));
 }
@@ -51,8 +50,8 @@ Block make_place_bars(const PairFindings& findings) {
     names.push_back(fmt::format("{}, {}", at.run, at.phase));
     values.push_back(rounded(at.size));
   }
-  return make_bars({capitalized(name_reading(findings.where.front())) + ": measured less simulated", unit}, names,
-                   {{{"name", "measured less simulated"}, {"values", values}}},
+  return make_bars({capitalized(name_reading(findings.where.front())) + ": measured minus simulated", unit}, names,
+                   {{{"name", "measured minus simulated"}, {"values", values}}},
                    "The same tire is simulated on both machines. The place with the largest share of the difference "
                    "stands first.");
 }
@@ -98,18 +97,9 @@ Block make_probability_bars(const PairFindings& findings) {
 
 /// The verdict of the terminal as a sentence, with the names of effects in place of their ids.
 std::string describe_pair(const PairFindings& findings) {
-  std::string text = diagnosis::describe_pair_verdict(findings) + ".";
-  for (const MachineDifference& cause : findings.causes) {
-    for (const std::string& id : cause.effects) boost::algorithm::replace_all(text, id, plain_name(id));
-  }
-  boost::algorithm::replace_first(text, "they", "machines A and B");
-  if (findings.verdict == PairVerdict::kUnexplained && !findings.where.empty()) {
-    const Location& at = findings.where.front();
-    boost::algorithm::replace_first(text, "differ",
-                                    fmt::format("differ, most in the {}: {:+.2g} {} beside the simulation (run {}, {})",
-                                                name_reading(at), at.size, at.unit, at.run, at.phase));
-  }
-  return capitalized(text);
+  const std::string verdict = diagnosis::describe_pair_verdict(findings, {"machines A and B", plain_name});
+  const bool has_place = findings.verdict == PairVerdict::kUnexplained && !findings.where.empty();
+  return capitalized(verdict) + "." + (has_place ? " " + capitalized(describe_readings(findings)) + "." : "");
 }
 
 Block make_pair_tiles(const PairFindings& findings) {
@@ -191,7 +181,7 @@ Block make_parameter_table(const MachineDifference& cause) {
 }
 
 Block make_place_table(const PairFindings& findings) {
-  Table table{"", {"channel", "run", "phase", "measured less simulated", "unit", "share, %"}, {}};
+  Table table{"", {"channel", "run", "phase", "measured minus simulated", "unit", "share, %"}, {}};
   for (const Location& at : findings.where) {
     table.rows.push_back({name_reading(at), at.run, at.phase, fmt::format("{:+.2g}", at.size), at.unit,
                           fmt::format("{:.0f}", at.share_percent)});

@@ -232,7 +232,7 @@ Block make_force_chart(const estimation::CoastdownFile& file, const RoadLoadFit&
 Block make_road_residual_chart(const estimation::CoastdownFile& file, const RoadLoadFit& fit) {
   Json series = Json::array();
   add_headings(file, fit, &RoadLoadPoint::residual_N, series);
-  Block block = make_curves({"Speed", "km/h"}, {"Measured less fitted", force_unit(fit)}, series,
+  Block block = make_curves({"Speed", "km/h"}, {"Measured minus fitted", force_unit(fit)}, series,
                             "Fit as tested: wind, slope and weather are in it.");
   block["marks"] = {0.0};
   return block;

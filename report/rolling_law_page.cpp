@@ -153,7 +153,7 @@ Block make_residual_chart_of(const std::vector<FittedPoint>& points, bool over_s
     series.push_back(residuals.finish(group.name()));
   }
   Block block =
-      make_curves(over_speed ? Axis{"Speed", "km/h"} : Axis{"Load", "N"}, {"Measured less fitted", "N"}, series);
+      make_curves(over_speed ? Axis{"Speed", "km/h"} : Axis{"Load", "N"}, {"Measured minus fitted", "N"}, series);
   block["marks"] = {0.0};
   return block;
 }

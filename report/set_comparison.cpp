@@ -73,10 +73,10 @@ void add_panels(const PreparedSet& set, const Series& series, const std::vector<
   if (left.empty()) return;
   left.front()["zero"] = true;
   panels.push_back(
-      {{"label", label + ", measured less simulated"}, {"unit", shown_unit(channel)}, {"series", left}, {"low", true}});
+      {{"label", label + ", measured − simulated"}, {"unit", shown_unit(channel)}, {"series", left}, {"low", true}});
 }
 
-/// Mean of measured less simulated over a phase; not a number where the series has no block in it.
+/// Mean of measured minus simulated over a phase; not a number where the series has no block in it.
 double calc_mean_over(std::size_t phase, const Series& series, const SimulatedSet& simulated) {
   double sum = 0.0;
   double blocks = 0.0;
@@ -182,7 +182,7 @@ Json list_phase_means(const measurements::MeasurementSet& set) {
 Block make_gap_map(const PreparedSet& set, const SimulatedSet& simulated, const std::vector<Location>& where) {
   Block block = {
       {"type", "map"},
-      {"caption", "Measured less simulated, by run, phase and channel"},
+      {"caption", "Measured minus simulated, by run, phase and channel"},
       {"columns", Json::array()},
       {"rows", Json::array()},
       {"legend",

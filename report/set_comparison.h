@@ -23,7 +23,7 @@ SimulatedSet simulate_set(const diagnosis::PreparedSet& set, const std::string& 
 /// One run over time: of each channel the measurement with every simulation, and what is left of each.
 Block make_comparison(const diagnosis::PreparedSet& set, std::size_t run, const std::vector<SimulatedSet>& simulated);
 
-/// Mean of measured less simulated of each run, phase and channel, as the map has it: {run, phase, channel, mean,
+/// Mean of measured minus simulated of each run, phase and channel, as the map has it: {run, phase, channel, mean,
 /// unit}.
 Json list_phase_means(const diagnosis::PreparedSet& set, const SimulatedSet& simulated);
 /// The same with the files' own numbers, for the document of a diagnosis; empty where the set cannot be simulated.

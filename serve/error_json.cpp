@@ -16,25 +16,24 @@ bool is_place(const std::string& file) {
 }
 
 Json make_problem_json(const InputProblem& problem, const std::string& private_folder) {
-  const auto open = [&](const std::string& text) {
-    const std::string spoken = speak_of_page(text);
-    return private_folder.empty() ? spoken : boost::algorithm::replace_all_copy(spoken, private_folder, "");
+  const auto hide_folder = [&](const std::string& text) {
+    return private_folder.empty() ? text : boost::algorithm::replace_all_copy(text, private_folder, "");
   };
-  Json json{{"what", open(problem.what)}};
-  if (is_place(problem.file)) json["file"] = open(problem.file);
-  if (problem.line > 0) json["line"] = problem.line;
+  Json json{{"what", hide_folder(speak_of_page(problem.what))}};
   const auto add = [&](const char* key, const std::string& text) {
-    if (!text.empty()) json[key] = open(text);
+    if (!text.empty()) json[key] = hide_folder(text);
   };
-  add("key", problem.key);
+  if (is_place(problem.file)) add("file", problem.file);
+  if (problem.line > 0) json["line"] = problem.line;
+  add("key", speak_of_page(problem.key));
   if (problem.key == "--rest") {  // what the page asks for
     std::smatch run;
     static const std::regex named("--rest (\\S+)=MINUTES");
     if (std::regex_search(problem.allowed, run, named)) json["rest_before"] = run[1].str();
   }
-  add("value", problem.value);
-  add("allowed", problem.allowed);
-  add("nearest", problem.nearest);
+  add("value", problem.value);  // as it was given: no words of ours
+  add("allowed", speak_of_page(problem.allowed));
+  add("nearest", speak_of_page(problem.nearest));
   return json;
 }
 

@@ -38,7 +38,8 @@ const std::vector<std::pair<std::regex, std::string>>& list_page_words() {
 }  // namespace
 
 std::string speak_of_page(const std::string& text) {
-  if (text.find("--") == std::string::npos) return text;
+  constexpr std::size_t kLongest = 2000;  // std::regex recurses: a longer text holds what a file says, not our words
+  if (text.size() > kLongest || text.find("--") == std::string::npos) return text;
   std::string spoken = text;
   for (const auto& [option, words] : list_page_words()) spoken = std::regex_replace(spoken, option, words);
   return spoken;

@@ -70,7 +70,7 @@ std::optional<Fit> loosen_laws(const Study& study, const Fit& fit, const std::ve
   Fit loose = fit;
   const Eigen::Index known = fit.jacobian.cols();
   loose.jacobian.resize(columns.rows(), known + columns.cols());
-  loose.jacobian << fit.jacobian, -columns;  // a residual is what was measured less what is simulated
+  loose.jacobian << fit.jacobian, -columns;  // a residual is what was measured minus what is simulated
   loose.unknowns.conservativeResize(known + columns.cols());
   loose.unknowns.tail(columns.cols()).setZero();
   return loose;

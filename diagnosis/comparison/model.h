@@ -65,7 +65,7 @@ class Model {
   /// Whitened residuals (measured - simulated - offset) and their derivatives by the unknowns.
   bool evaluate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& residuals, RowMatrix* jacobian) const;
 
-  /// Measured less `simulated` less offsets, block means in SI units.
+  /// Measured minus `simulated` minus offsets, block means in SI units.
   Eigen::VectorXd subtract_from_measured(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& simulated) const;
 
  private:

@@ -39,7 +39,7 @@ struct Scale {
 /// all phases, or of those in `counted`.
 void add_run(const Scale& scale, std::size_t run, const Eigen::VectorXd& difference, Measure& measure,
              const std::set<std::size_t>* counted = nullptr);
-/// All runs, measured less `simulated`.
+/// All runs, measured minus `simulated`.
 Measure measure_runs(const Scale& scale, const Eigen::VectorXd& simulated);
 /// The candidate with its base parameters at the files' values: only its own parameters and offsets are fitted. Empty
 /// where that cannot be simulated.

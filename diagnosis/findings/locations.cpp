@@ -238,7 +238,7 @@ double calc_excess(const PhaseOfSeries& stretch, const Eigen::VectorXd& differen
   return sum;
 }
 
-/// Measured less simulated less offset, block means in SI units, of the baseline fitted beside the stretches.
+/// Measured minus simulated less offset, block means in SI units, of the baseline fitted beside the stretches.
 Eigen::VectorXd calc_difference(const Study& study, const Eigen::VectorXd& unknowns) {
   const Fit& fit = study.null.fit;
   Eigen::VectorXd moved = fit.jacobian * (unknowns - fit.unknowns);

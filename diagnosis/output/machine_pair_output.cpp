@@ -38,12 +38,12 @@ double probability_in(const PairFindings& findings, const std::string& name) {
 }
 
 /// "load_record on B", or of two effects both.
-std::string name_difference(const MachineDifference& cause) {
+std::string name_difference(const MachineDifference& cause, const PairWords& words = {}) {
   std::vector<std::string> names;
   for (const std::string& effect : cause.effects) {
     const auto on = std::find_if(cause.on_machine.begin(), cause.on_machine.end(),
                                  [&](const OnMachine& one) { return one.effect == effect; });
-    names.push_back(on == cause.on_machine.end() ? effect : name_with_machine(*on));
+    names.push_back(on == cause.on_machine.end() ? words.name_of(effect) : name_with_machine(*on, words));
   }
   return fmt::format("{}", fmt::join(names, " + "));
 }
@@ -88,12 +88,13 @@ Json make_difference_json(const MachineDifference& cause) {
 
 }  // namespace
 
-std::string name_with_machine(const OnMachine& on) {
+std::string name_with_machine(const OnMachine& on, const PairWords& words) {
   constexpr double kKnown = 0.9;
+  const std::string effect = words.name_of(on.effect);
   const double sum = on.probability[0] + on.probability[1];
-  if (!(sum > 0.0)) return on.effect;  // it acts on both alike, and their drums differ
-  if (on.probability[0] >= kKnown * sum) return on.effect + " on A";
-  return on.effect + (on.probability[1] >= kKnown * sum ? " on B" : " on A or B");
+  if (!(sum > 0.0)) return effect;  // it acts on both alike, and their drums differ
+  if (on.probability[0] >= kKnown * sum) return effect + " on A";
+  return effect + (on.probability[1] >= kKnown * sum ? " on B" : " on A or B");
 }
 
 std::string show_rrc(const RrcEstimate& estimate) {
@@ -101,25 +102,25 @@ std::string show_rrc(const RrcEstimate& estimate) {
                      estimate.high_95_N_per_kN);
 }
 
-std::string describe_pair_verdict(const PairFindings& findings) {
+std::string describe_pair_verdict(const PairFindings& findings, const PairWords& words) {
   const std::string unknown = show_probability(probability_in(findings, "unknown"));
   switch (findings.verdict) {
     case PairVerdict::kAgree: {
       const RrcEstimate& of = findings.difference;
       const double within = std::max(std::abs(of.low_95_N_per_kN), std::abs(of.high_95_N_per_kN));
-      return fmt::format("they agree, probability {}{}", show_probability(probability_in(findings, "agree")),
+      return fmt::format("{} agree, probability {}{}", words.machines, show_probability(probability_in(findings, "agree")),
                          std::isfinite(within) ? fmt::format(": within {:.2f} N/kN", within) : "");
     }
     case PairVerdict::kExplained:
-      return fmt::format("they differ in {}, probability {} (agree {}, unknown {})",
-                         name_difference(findings.causes.front()),
+      return fmt::format("{} differ in {}, probability {} (agree {}, unknown {})", words.machines,
+                         name_difference(findings.causes.front(), words),
                          show_probability(findings.causes.front().probability),
                          show_probability(probability_in(findings, "agree")), unknown);
     case PairVerdict::kUnexplained:
       break;
   }
   if (!findings.doubt.empty()) return "unexplained: the files are in doubt, before any physics";
-  return fmt::format("they differ; no compared effect explains it, probability {}", unknown);
+  return fmt::format("{} differ; no compared effect explains it, probability {}", words.machines, unknown);
 }
 
 Table make_difference_table(const PairFindings& findings) {
@@ -139,7 +140,7 @@ std::string format_pair(const PairFindings& findings) {
       pair_line("Machines", fmt::format("A {} ({}), B {} ({}), tire {}", findings.machines[0], findings.sets[0],
                                         findings.machines[1], findings.sets[1], findings.tire));
   text += pair_line("Verdict", describe_pair_verdict(findings));
-  text += pair_line("RRc, A less B", std::isfinite(findings.difference.value_N_per_kN)
+  text += pair_line("RRc, A minus B", std::isfinite(findings.difference.value_N_per_kN)
                                          ? show_rrc(findings.difference) + " as measured"
                                          : "unknown: one of the machines has no constant speed under load");
   const bool is_named = findings.verdict == PairVerdict::kExplained;

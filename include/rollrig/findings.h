@@ -124,7 +124,7 @@ struct Location {
   std::string run;
   std::string phase;
   double share_percent = 0.0;  // of all that is above the noise
-  double size = 0.0;           // measured less simulated, mean over the stretch
+  double size = 0.0;           // measured minus simulated, mean over the stretch
   std::string unit;
   double z = 0.0;  // size over its standard deviation
   double start_s = 0.0;

@@ -50,7 +50,7 @@ struct PairFindings {
   PairVerdict verdict = PairVerdict::kAgree;
   std::map<std::string, double> probability;  // of "agree", "unknown" and every effect in which they may differ
   std::vector<MachineDifference> causes;      // the likeliest first
-  RrcEstimate difference;                     // of the coefficient on A less that on B, no effect assumed
+  RrcEstimate difference;                     // of the coefficient on A minus that on B, no effect assumed
   std::optional<RrcEstimate> remaining;       // what of it remains with the first cause
   std::optional<double> left_out_nats;        // ln of how much likelier the cause makes runs left out; with a cause
   std::vector<Location> where;                // a run is "A: <id>" or "B: <id>"

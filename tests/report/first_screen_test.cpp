@@ -177,9 +177,9 @@ TEST_CASE("two machines that differ in an unknown effect: the first screen says 
   const report::Page page = report::make_machine_pair_page(findings);
   const Json lead = page.sections.front().blocks.front();
   const std::string text = lead["text"];
-  CHECK_THAT(text, Catch::Contains("drum torque (as force): -1.3 N beside the simulation (run A: "
-                                   "speed-120, 120 km/h 5.4 kN)"));
-  CHECK(lead["more"] == "No difference in RRc itself is shown: RRc on A less that on B is -0.107 +- 0.325 N/kN.");
+  CHECK_THAT(text, Catch::Contains("Their readings differ most in the drum torque (as force): measured minus "
+                                   "simulated is -1.3 N (run A: speed-120, 120 km/h 5.4 kN)."));
+  CHECK(lead["more"] == "No difference in RRc itself is shown: RRc on A minus that on B is -0.107 +- 0.325 N/kN.");
   const Json bars = find_block(page, "bars");
   CHECK(bars["series"][0]["values"] == Json({-1.3, 0.4}));
   CHECK(bars["unit"] == "N");

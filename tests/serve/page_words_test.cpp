@@ -17,3 +17,8 @@ TEST_CASE("messages on the page speak of its fields and not of options", "[fast]
   CHECK(speak_of_page("--unit") == "unit");
   CHECK(speak_of_page("no option -- at all") == "no option -- at all");
 }
+
+TEST_CASE("a text of a file of any length is given as it is", "[fast]") {
+  const std::string text = "--column \"" + std::string(1000000, 'x') + "=HEADING";
+  CHECK(speak_of_page(text) == text);
+}

@@ -17,9 +17,8 @@ import { Clock } from './clock.js';
 import { h } from './dom.js';
 import { animationBlock } from './animation/animation.js';
 import { crossSectionBlock } from './animation/section.js';
-import { fillSheets, restoreSheets } from './paper_flow.js';
-import { fitTables, restoreTables } from './paper_tables.js';
-import { makeThemeButton, setOnPaper, startTheme } from './theme.js';
+import { preparePrinting } from './paper.js';
+import { makeThemeButton, startTheme } from './theme.js';
 import { timeBarBlock } from './timebar.js';
 
 export const kBlocks = {
@@ -64,23 +63,7 @@ function start() {
   const main = h('main', { id: 'content', tabindex: '-1' }, payload.sections.map((section) => makeSection(section, context)));
   document.getElementById('page').replaceChildren(makeHeader(payload), makeContents(payload.sections), main,
     h('footer', null, h('p', null, payload.about), h('p', null, 'This page needs no network. Charts: Apache ECharts, Apache License 2.0.')));
-  // A fold of JSON is for programs: it stays off paper.
-  const folds = () => [...document.querySelectorAll('details.fold')].filter((fold) => !fold.querySelector('pre'));
-  addEventListener('beforeprint', () => {
-    folds().forEach((fold) => (fold.open = true));
-    setOnPaper(true);
-    document.documentElement.classList.add('paper');
-    drawAll();
-    fitTables();
-    fillSheets();
-  });
-  addEventListener('afterprint', () => {
-    restoreTables();
-    restoreSheets();
-    document.documentElement.classList.remove('paper');
-    setOnPaper(false);
-    drawAll();
-  });
+  preparePrinting();
   window.rollrig = { clock, drawAll, chartAt, chartCount, legendsAndPlots, showTips };
   document.documentElement.dataset.ready = 'yes';
 }

@@ -16,7 +16,7 @@ constexpr int kSeeds = 20;
 
 struct Errors {
   std::vector<double> time_s;
-  std::vector<double> values;  // measured less true
+  std::vector<double> values;  // measured minus true
   double mean = 0.0;
 };
 

@@ -13,7 +13,7 @@ namespace rollrig::validation {
 /// gap the residual is independent and of unit variance. A signature is what an effect adds to the residual at some
 /// size that it may have; its amplitude is not below 0.
 struct LinearData {
-  Eigen::VectorXd residual;          // measured less the baseline as calibrated
+  Eigen::VectorXd residual;          // measured minus the baseline as calibrated
   Eigen::MatrixXd signatures;        // a column each
   std::vector<std::string> effects;  // of the columns; one of either sign has two
 };

@@ -2,6 +2,7 @@
 // is in the program alone: this page asks it and draws.
 import { chartAt, chartCount, drawAll, legendsAndPlots } from '../chart.js';
 import { h } from '../dom.js';
+import { preparePrinting } from '../paper.js';
 import { makeThemeButton, startTheme } from '../theme.js';
 import { get } from './api.js';
 import { listenForDrops } from './drop.js';
@@ -42,7 +43,7 @@ async function start() {
     const before = sessionStorage.getItem(kShownKey);
     show(before === 'sets' ? 'sets' : 'try');
     if (await views.sets.resume()) show('sets');
-    addEventListener('beforeprint', drawAll);
+    preparePrinting();
   } catch (error) {
     page.replaceChildren(makeProblem(error.problem || { what: error.message }));
   }
