@@ -86,7 +86,7 @@ export function fillSheets() {
   if (!hasFewLines && last < 1 - kUnsure) return;
   const charts = listWholes().map(({ chart }) => chart).filter(Boolean).reverse();
   const before_px = charts.map((chart) => chart.less_px);
-  let needed = hasFewLines ? last * kSheet_px + 12 : 2 * kUnsure * kSheet_px;
+  let needed = ((hasFewLines ? last : kUnsure) + kUnsure) * kSheet_px;
   for (const chart of charts) {
     const by_px = Math.min(needed, 0.4 * chart.element.offsetHeight);
     if (lower(chart, by_px)) needed -= by_px;
