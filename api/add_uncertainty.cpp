@@ -37,10 +37,14 @@ std::string show_like(const std::string& text, double value) {
   return fmt::format("{:.{}f}", value, point == std::string::npos ? 0 : first.size() - point - 1);
 }
 
-/// Puts the value of a tile, which has its uncertainty now, in place of the value as a sentence has it.
-void replace_number(const std::string& shown, const std::string& value, Json& sentence) {
+/// Puts the value of a tile, which has its uncertainty now, in place of the value as a sentence has it, and what +-
+/// means in place of what it meant.
+void replace_number(const std::string& shown, const std::string& value, double coverage_factor, Json& sentence) {
   std::string text = sentence.get<std::string>();
   boost::algorithm::replace_first(text, " " + shown + " ", " " + value + " ");
+  for (const char* before : {"(k = 2)", "(one standard deviation)", "(one standard error)"}) {
+    boost::algorithm::replace_first(text, before, fmt::format("(k = {:.2f})", coverage_factor));
+  }
   sentence = text;
 }
 
@@ -61,9 +65,10 @@ void put_budgets_on_tiles(const Json& uncertainty, report::Page& page) {
         const std::string shown = tile.at("value").get<std::string>();
         tile["value"] = shown.substr(0, shown.find(' ')) + " +- " +
                         show_like(shown, budgets[i].at("expanded_uncertainty").get<double>());
-        if (lead != blocks.end()) replace_number(shown, tile["value"], lead->at("text"));
-        tile["note"] = fmt::format("+- is the expanded uncertainty (k = {:.2f}) of the whole budget, below",
-                                   budgets[i].at("coverage_factor").get<double>());
+        const double coverage_factor = budgets[i].at("coverage_factor");
+        if (lead != blocks.end()) replace_number(shown, tile["value"], coverage_factor, lead->at("text"));
+        tile["note"] =
+            fmt::format("+- is the expanded uncertainty (k = {:.2f}) of the whole budget, below", coverage_factor);
         tile["from"] = {pointer, fmt::format("/uncertainty/budgets/{}/expanded_uncertainty", i)};
       }
     }

@@ -189,6 +189,12 @@ std::string capitalized(std::string text) {
   return text;
 }
 
+std::string show_with_sd(double value, double sd) {
+  constexpr int kMost = 12;
+  const int decimals = sd > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, kMost) : 3;
+  return fmt::format("{0:.{2}f} +- {1:.{2}f}", value, sd, decimals);
+}
+
 std::vector<double> in_unit_of(const std::string& key, std::vector<double> values_SI) {
   const Unit unit = unit_of_key(key);
   for (double& value : values_SI) value = unit.from_si(value);

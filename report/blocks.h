@@ -120,5 +120,7 @@ std::string shown_unit(const std::string& key);
 std::string pretty_unit(std::string symbol);
 /// The text with a capital first.
 std::string capitalized(std::string text);
+/// "316.10 +- 0.73": two digits of the standard deviation, and the value with as many decimals (GUM, 7.2.6).
+std::string show_with_sd(double value, double sd);
 
 }  // namespace rollrig::report

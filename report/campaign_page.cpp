@@ -38,7 +38,7 @@ Block make_shares(const PlannedCampaign& campaign) {
   return make_bars(
       {"Chance that the effect is visible if it acts", "%"}, names,
       Json::array({{{"name", "visible"}, {"values", shares}}}),
-      "The share of the sizes, by what is known of the effect before any test, that the tests would show.");
+      "Over all sizes that the effect may have: a very small one stays invisible.");
 }
 
 Section make_hand_work(const PlannedCampaign& campaign) {

@@ -22,38 +22,33 @@ std::string name_reading(const Location& at) {
   return plain_name(at.channel) + (is_torque ? " (as force)" : "");
 }
 
-/// Where their readings differ most.
-std::string describe_readings(const PairFindings& findings) {
-  if (findings.where.empty()) return "their readings differ";
-  const Location& at = findings.where.front();
-  return fmt::format("their readings differ most in the {}: measured minus simulated is {:+.2g} {} (run {}, {})",
-                     name_reading(at), at.size, at.unit, at.run, at.phase);
-}
-
 /// The difference of the coefficients, in a sentence; empty where it is not known.
 std::string describe_rrc(const PairFindings& findings) {
   const RrcEstimate& at = findings.difference;
   if (!std::isfinite(at.value_N_per_kN)) return "";
   const bool shows_none = at.low_95_N_per_kN < 0.0 && at.high_95_N_per_kN > 0.0;
-  return fmt::format("{}: RRc on A minus that on B is {:+.3f} +- {:.3f} N/kN.",
+  return fmt::format("{}: RRc on A minus that on B is {:+.3f} +- {:.3f} N/kN (95 %).",
                      shows_none ? "No difference in RRc itself is shown" : "RRc differs as well", at.value_N_per_kN,
                      0.5 * (at.high_95_N_per_kN - at.low_95_N_per_kN));
 }
 
-/// The places at which the readings differ, those with the largest share first: readings of one unit.
+/// The places with the largest share of the difference, the largest deviation first: readings of one channel.
 Block make_place_bars(const PairFindings& findings) {
-  Json names = Json::array(), values = Json::array();
-  const std::string unit = findings.where.front().unit;
-  const std::string channel = findings.where.front().channel;
+  const Location& first = findings.where.front();
+  std::vector<Location> places;
   for (const Location& at : findings.where) {
-    if (at.unit != unit || at.channel != channel || names.size() == kMostBars) continue;
+    if (at.unit == first.unit && at.channel == first.channel && places.size() < kMostBars) places.push_back(at);
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Location& a, const Location& b) { return std::abs(a.size) > std::abs(b.size); });
+  Json names = Json::array(), values = Json::array();
+  for (const Location& at : places) {
     names.push_back(fmt::format("{}, {}", at.run, at.phase));
     values.push_back(rounded(at.size));
   }
-  return make_bars({capitalized(name_reading(findings.where.front())) + ": measured minus simulated", unit}, names,
+  return make_bars({capitalized(name_reading(first)) + ": measured minus simulated", first.unit}, names,
                    {{{"name", "measured minus simulated"}, {"values", values}}},
-                   "The same tire is simulated on both machines. The place with the largest share of the difference "
-                   "stands first.");
+                   "Where the readings depart from the simulation of the same tire on both machines.");
 }
 
 bool names_cause(const PairFindings& findings) {
@@ -97,9 +92,7 @@ Block make_probability_bars(const PairFindings& findings) {
 
 /// The verdict of the terminal as a sentence, with the names of effects in place of their ids.
 std::string describe_pair(const PairFindings& findings) {
-  const std::string verdict = diagnosis::describe_pair_verdict(findings, {"machines A and B", plain_name});
-  const bool has_place = findings.verdict == PairVerdict::kUnexplained && !findings.where.empty();
-  return capitalized(verdict) + "." + (has_place ? " " + capitalized(describe_readings(findings)) + "." : "");
+  return capitalized(diagnosis::describe_pair_verdict(findings, {"machines A and B", plain_name})) + ".";
 }
 
 Block make_pair_tiles(const PairFindings& findings) {
@@ -115,13 +108,13 @@ Block make_pair_tiles(const PairFindings& findings) {
     tiles.push_back({"They differ in",
                      "an unknown effect",
                      "",
-                     describe_readings(findings) + "; no effect that was compared explains it",
+                     "no effect that was compared explains the difference",
                      "bad",
                      {}});
     tiles.push_back({"How sure",
                      probability("unknown"),
                      "",
-                     "probability that no compared effect explains it",
+                     "probability that they differ in an unknown effect",
                      "",
                      {"/probability/unknown"}});
   } else {

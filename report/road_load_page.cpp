@@ -142,9 +142,9 @@ Block make_load_tiles(const RoadLoadFitOptions& options, const RoadLoadFit& fit)
   if (!at_80.is_outside) {
     const std::string place = fmt::format("/forces/{}/force_{}", kAt80, fit.per_mass ? "m_s2" : "N");
     tiles.insert(tiles.begin(), {"Road load at 80 km/h",
-                                 fmt::format("{:.4g} +- {:.2g}", at_80.force_N, at_80.sd_N),
+                                 show_with_sd(at_80.force_N, at_80.sd_N),
                                  force_unit(fit),
-                                 "at reference conditions; +- is one standard deviation, here and beside",
+                                 "at reference conditions; +- is one standard deviation, in all these tiles",
                                  "",
                                  {place, place + "_sd"}});
   }
@@ -161,8 +161,8 @@ Block make_load_lead(const RoadLoadFitOptions& options, const RoadLoadFit& fit) 
   const estimation::ShownForce at_80 = estimation::list_shown_forces(options, fit)[kAt80];
   const std::string start = at_80.is_outside
                                 ? std::string("The road load at reference conditions is A + B v + C v²")
-                                : fmt::format("The road load at 80 km/h is {:.4g} +- {:.2g} {} at reference conditions",
-                                              at_80.force_N, at_80.sd_N, force_unit(fit));
+                                : fmt::format("The road load at 80 km/h is {} {} (one standard deviation) at reference conditions",
+                                              show_with_sd(at_80.force_N, at_80.sd_N), force_unit(fit));
   return make_lead("", fmt::format("{}: A = {}, B = {}, C = {}.", start, show(0), show(1), show(2)));
 }
 

@@ -209,14 +209,14 @@ std::string list_failed_checks(const RoadLoadProcedure& procedure, bool with_lim
 }
 
 Block make_procedure_tiles(const RoadLoadProcedure& procedure) {
-  constexpr const char* kNotes[] = {"force at standstill; +- is one standard deviation, here and beside",
+  constexpr const char* kNotes[] = {"force at standstill; +- is one standard deviation, in all these tiles",
                                     "rise with speed", "rise with the square of speed"};
   std::vector<Tile> tiles;
   const std::vector<ParameterEstimate> coefficients = list_procedure_coefficients(procedure);
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
     const ParameterEstimate& at = coefficients[i];
     tiles.push_back({fmt::format("f{}", i),
-                     fmt::format("{:.4g} +- {:.2g}", at.value, at.sd),
+                     show_with_sd(at.value, at.sd),
                      at.unit,
                      kNotes[i],
                      "",

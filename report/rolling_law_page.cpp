@@ -249,7 +249,7 @@ Block make_law_lead(const std::vector<Tile>& tiles) {
   const Tile& main = tiles.front();
   std::string where = main.note.substr(0, main.note.find(';'));
   if (where.rfind("at ", 0) == 0) where.erase(0, 3);
-  return make_lead("", fmt::format("{} ({}) is {} {}.", main.label, where, main.value, main.unit));
+  return make_lead("", fmt::format("{} ({}) is {} {} (95 %).", main.label, where, main.value, main.unit));
 }
 
 }  // namespace

@@ -101,10 +101,17 @@ Block make_setting(const Json& differences) {
                       make_curve("found on the rollers", differences, "speed_km_h", "found_N")});
 }
 
-Block make_skim_line(const Json& points) {
+/// The points, and the straight line through them down to load zero.
+Block make_skim_line(const Json& result, const Json& points) {
+  ChartSeries line;
+  double largest_N = 0.0;
+  for (const Json& point : points) largest_N = std::max(largest_N, point["load_N"].get<double>());
+  for (const double load_N : {0.0, largest_N}) {
+    line.add(load_N, result["intercept_N"].get<double>() + result["slope_N_per_kN"].get<double>() * load_N / 1e3);
+  }
   return make_curves({"Load", "N", true}, {"Force in skim", "N"},
-                     Json::array({make_curve("measured", points, "load_N", "force_N")}),
-                     "Where the line meets load zero is the loss of the rig alone.");
+                     Json::array({make_curve("measured", points, "load_N", "force_N"), line.finish("straight line", "line")}),
+                     "Where the straight line meets load zero is the loss of the rig alone.");
 }
 
 /// Whether all rows have a number; a drive with the measured road load of its vehicle has no loss of its tires.
@@ -200,7 +207,7 @@ std::optional<Block> make_first_figure(const Json& result, const sim::Recording<
   const auto number = [&result](const char* key) { return result.at(key).get<double>(); };
   if (!list("force_N").empty()) return make_road_load(list("force_N"));
   if (!list("differences").empty()) return make_setting(list("differences"));
-  if (!list("points").empty()) return make_skim_line(list("points"));
+  if (!list("points").empty()) return make_skim_line(result, list("points"));
   const Json sections = list("sections");
   if (!sections.empty() && has_numbers(sections, "difference_percent")) return make_section_energies(sections);
   if (list("cycles").size() > 1 && !result.contains("rrc_25degC_2m_N_per_kN")) {

@@ -63,8 +63,8 @@ Json make_change_series(const Json& factors) {
   return {{"name", "mean change"}, {"values", values}, {"low", low}, {"high", high}};
 }
 
-/// "from 21.25 to 26.25 °C" of a factor of elementary effects, which has four values: a change goes from the first to
-/// the third, or from the second to the fourth. Empty for words, and where items are left out.
+/// "by 5 °C" of a factor of elementary effects, which has four values: a change goes from the first to the third, or
+/// from the second to the fourth. Empty for words, and where items are left out.
 std::string describe_step(const std::string& key, const std::vector<FactorScatter>& scatters) {
   const auto own =
       std::find_if(scatters.begin(), scatters.end(), [&key](const FactorScatter& one) { return one.key == key; });
@@ -74,10 +74,18 @@ std::string describe_step(const std::string& key, const std::vector<FactorScatte
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
   if (levels.size() != 4) return "";
   const std::string unit = shown_unit(last_part(key));
-  return fmt::format("from {:.4g} to {:.4g}{}{}", levels[0], levels[2], unit.empty() ? "" : " ", unit);
+  const auto steps = std::minmax({levels[2] - levels[0], levels[3] - levels[1]});
+  const std::string least = fmt::format("{:.3g}", steps.first), most = fmt::format("{:.3g}", steps.second);
+  return fmt::format("by {}{}{}{}", least, least == most ? "" : " or " + most, unit.empty() ? "" : " ", unit);
 }
 
 constexpr const char* kStepOfProbability = "from its 12.5 % to its 62.5 % quantile, or from 37.5 % to 87.5 %";
+
+/// "66 to 100 %" of a share of the variance, within 0 to 100 %.
+std::string show_share_limits(const Json& index) {
+  const auto limit = [&index](const char* name) { return 100.0 * std::clamp(index[name].get<double>(), 0.0, 1.0); };
+  return fmt::format("{:.0f} to {:.0f} %", limit("low_95"), limit("high_95"));
+}
 
 /// Shares beyond 0 and 100 %, which few points give, end there. Returns whether there are any.
 bool clip_shares(Json& series) {
@@ -111,7 +119,7 @@ Block make_index_bars(const Json& sensitivity) {
   const bool has_both = !std::all_of(factors.begin(), factors.end(), &has_one_sign);
   return make_bars({"Change of " + comparison::label_result(result), shown_unit(result)}, names,
                    Json::array({make_change_series(factors)}),
-                   fmt::format("As the factor goes up {}. Whiskers: intervals of 95 %.{}", kStepOfProbability,
+                   fmt::format("Mean change as the factor rises {}. Whiskers: intervals of 95 %.{}", kStepOfProbability,
                                has_both ? " A factor whose changes go either way has their mean size." : ""));
 }
 
@@ -255,16 +263,17 @@ std::string describe_sensitivity(const Json& sensitivity, const std::vector<Fact
     if (is_sobol) return show_variance_share(factor["total"]["value"].get<double>());
     const std::string step = describe_step(factor["key"], scatters);
     return fmt::format("{} {}{}{}", show_change(factor), unit, has_one_sign(factor) ? "" : " up or down",
-                       step.empty() ? "" : " " + step);
+                       step.empty() ? "" : " as it rises " + step);
   };
-  text += is_sobol ? fmt::format("it accounts for {} of the variance", size(factors[0]))
-                   : fmt::format("it changes by {}", size(factors[0]));
+  text += is_sobol ? fmt::format("it accounts for {} of the variance (95 % interval {})", size(factors[0]),
+                                 show_share_limits(factors[0]["total"]))
+                   : "on average, " + size(factors[0]);
   for (std::size_t i = 1; i < std::min(kMost, factors.size()); ++i) {
     others.push_back(fmt::format("{} {}", name_factor(factors[i]), size(factors[i])));
   }
   if (!others.empty())
     text += fmt::format("; {}{}", fmt::join(others, ", "), factors.size() > kMost ? ", the others less" : "");
-  return text + (is_sobol ? " (with interactions)." : ".");
+  return text + (is_sobol ? ", with interactions." : ".");
 }
 
 Block make_sensitivity_tiles(const Json& sensitivity, const std::vector<FactorScatter>& scatters) {
@@ -280,8 +289,8 @@ Block make_sensitivity_tiles(const Json& sensitivity, const std::vector<FactorSc
       tiles.push_back({name,
                        fmt::format("{:.1f} %", 100.0 * std::clamp(factor["total"]["value"].get<double>(), 0.0, 1.0)),
                        "",
-                       fmt::format("of the variance with interactions; alone {:.1f} %",
-                                   100.0 * factor["first"]["value"].get<double>()),
+                       fmt::format("of the variance with interactions (95 %: {}); alone {:.1f} %",
+                                   show_share_limits(factor["total"]), 100.0 * factor["first"]["value"].get<double>()),
                        "",
                        {place + "total/value"}});
     } else {
@@ -290,7 +299,7 @@ Block make_sensitivity_tiles(const Json& sensitivity, const std::vector<FactorSc
           {name,
            show_change(factor),
            shown_unit(result),
-           fmt::format("{} as it goes up {}", has_one_sign(factor) ? "mean change" : "mean size of the change",
+           fmt::format("{} as it rises {}", has_one_sign(factor) ? "mean change" : "mean size of the change",
                        step.empty() ? kStepOfProbability : step),
            "",
            {place + (has_one_sign(factor) ? "mean" : "mean_size/value")}});

@@ -124,18 +124,28 @@ std::string show_result(double value, const std::string& key) {
 /// where nothing differs, or where tires are not what is varied.
 std::string describe_other_conditions(const Json& sweep, const std::vector<std::string>& axes) {
   constexpr const char* kConditions[] = {"load_N", "speed_km_h", "pressure_set_kPa"};
-  if (axes != std::vector<std::string>{kTireAxis}) return "";
+  if (std::find(axes.begin(), axes.end(), kTireAxis) == axes.end()) return "";
+  const auto is_other = [](double a, double b) { return std::abs(a - b) > 1e-3 * std::abs(b); };
   std::vector<std::string> texts;
   for (const char* key : kConditions) {
     const std::vector<double> values = list_results(sweep, key);
-    const bool differs = std::any_of(values.begin(), values.end(), [&](double value) {
-      return std::abs(value - values.front()) > 1e-3 * std::abs(values.front());
-    });
-    if (!differs) continue;
-    std::vector<std::string> each;
+    std::vector<std::pair<std::string, double>> of_tires;
+    bool differs = false;
+    bool is_varied = false;  // the tire alone does not say it
     for (std::size_t i = 0; i < values.size(); ++i) {
-      each.push_back(axis_text(sweep["points"][i], kTireAxis) + " " + show_result(values[i], key));
+      const std::string tire = axis_text(sweep["points"][i], kTireAxis);
+      const auto known =
+          std::find_if(of_tires.begin(), of_tires.end(), [&tire](const auto& one) { return one.first == tire; });
+      if (known != of_tires.end()) {
+        is_varied = is_varied || is_other(values[i], known->second);
+      } else {
+        of_tires.emplace_back(tire, values[i]);
+      }
+      differs = differs || is_other(values[i], of_tires.front().second);
     }
+    if (!differs || is_varied) continue;
+    std::vector<std::string> each;
+    for (const auto& [tire, value] : of_tires) each.push_back(tire + " " + show_result(value, key));
     texts.push_back(fmt::format("{}: {}", name_axis(key), fmt::join(each, ", ")));
   }
   return fmt::format("{}", fmt::join(texts, "; "));

@@ -148,7 +148,7 @@ Block make_steady_tiles(const TireFit& fit) {
 Block make_fit_lead(const TireFit& fit) {
   const estimation::SteadyTire& steady = fit.steady;
   return make_lead(
-      "", fmt::format("Warm, at 80 km/h and 25 degC, the tire has an RRc of {} N/kN ({:.0f} N, {:.0f} kPa). Its loss "
+      "", fmt::format("Warm, at 80 km/h and 25 degC, the tire has an RRc of {} N/kN ({:.0f} N, {:.0f} kPa; +- is one standard uncertainty). Its loss "
                       "falls by {} % per K, and it warms up with a time constant of {} min.",
                       show_uncertain(steady.rrc, 1e-3, 3), steady.at.load_N,
                       unit_of_key("pressure_kPa").from_si(steady.at.pressure_Pa),

@@ -83,12 +83,12 @@ struct Results {
     visit(Result{"force_at_80_N_sd", "", ".1f", "its standard deviation"}, force_at_80_sd_N);
     visit(JointLine{"Force at 80 km/h", "{force_at_80_N} +- {force_at_80_N_sd}"});
     visit(Summary{
-        fmt::format("The road load at 80 km/h is {{force_at_80_N}} +- {{force_at_80_N_sd}}, {}: A = {{A_N}}, B = "
-                    "{{B_N_per_km_h}}, C = {{C_N_per_km_h2}}.",
+        fmt::format("The road load at 80 km/h is {{force_at_80_N}} +- {{force_at_80_N_sd}} (one standard deviation) {}: A = "
+                    "{{A_N}}, B = {{B_N_per_km_h}}, C = {{C_N_per_km_h2}}.",
                     on_road ? "at reference conditions" : "of rollers and vehicle as tested")});
     visit(Headline{"Road load at 80 km/h", "{force_at_80_N} +- {force_at_80_N_sd}",
-                   on_road ? "at reference conditions; +- is one standard deviation, here and beside"
-                           : "rollers and vehicle, as tested; +- is one standard deviation, here and beside"});
+                   on_road ? "at reference conditions; +- is one standard deviation, in all these tiles"
+                           : "rollers and vehicle, as tested; +- is one standard deviation, in all these tiles"});
     visit(Headline{"A", "{A_N} +- {A_N_sd}", "force at standstill"});
     visit(Headline{"B", "{B_N_per_km_h} +- {B_N_per_km_h_sd}", "rise with speed"});
     visit(Headline{"C", "{C_N_per_km_h2} +- {C_N_per_km_h2_sd}", "rise with the square of speed"});

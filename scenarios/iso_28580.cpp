@@ -135,7 +135,7 @@ struct Results {
     visit(Summary{fmt::format(
         "The rolling resistance coefficient (RRc) is {{rrc_25degC_2m_N_per_kN}}{} at 25 degC on a 2 m drum{}. Rolling "
         "resistance is {{rolling_resistance_N}} at {{load_N}} and {{speed_km_h}}.{}",
-        uncertainty.has_value() ? " +- {rrc_uncertainty_N_per_kN}" : "",
+        uncertainty.has_value() ? " +- {rrc_uncertainty_N_per_kN} (k = 2)" : "",
         label_class.has_value() ? ", EU label class {label_class}" : "", describe_unsettled())});
     const char* label = "RRc at 25 degC, 2 m drum";
     if (uncertainty.has_value()) {

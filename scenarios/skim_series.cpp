@@ -56,8 +56,8 @@ struct Results {
                  "what the rig alone loses, which only a simulation knows"},
           rig_alone_N);
     visit(Summary{
-        "The parasitic loss of the rig is {intercept_N} +- {intercept_sd_N}, by a straight line to load zero; the "
-        "simulated rig truly loses {rig_alone_N}."});
+        "The parasitic loss of the rig is {intercept_N} +- {intercept_sd_N} (one standard error), by a straight line to "
+        "load zero; the simulated rig truly loses {rig_alone_N}."});
     visit(Headline{"Parasitic loss at zero load", "{intercept_N} +- {intercept_sd_N}",
                    "by the straight line; +- is one standard error"});
     visit(Headline{"True loss of the rig", "{rig_alone_N}",

@@ -238,7 +238,9 @@ TEST_CASE("runs without a golden are no runs that differ, and have no bar", "[fa
 }
 
 TEST_CASE("a sensitivity says which factor matters and how much, and its map is in the document", "[fast]") {
-  const auto index = [](double value) { return Json{{"value", value}, {"low_95", value}, {"high_95", value}}; };
+  const auto index = [](double value) {
+    return Json{{"value", value}, {"low_95", 0.7 * value}, {"high_95", 1.2 * value}};
+  };
   Json sensitivity = {{"result", "rrc_N_per_kN"},
                       {"mean", 5.2},
                       {"sd", 0.19},
@@ -255,7 +257,8 @@ TEST_CASE("a sensitivity says which factor matters and how much, and its map is 
   const report::Page page = report::make_sensitivity_page(sensitivity, table, "", scatters);
   const std::vector<report::Block>& blocks = page.sections.front().blocks;
   CHECK(blocks[0]["text"] ==
-        "RRc depends most on ambient: it accounts for 98 % of the variance; pressure 1.3 % (with interactions).");
+        "RRc depends most on ambient: it accounts for 98 % of the variance (95 % interval 68 to 100 %); pressure 1.3 %, "
+        "with interactions.");
   REQUIRE(blocks[1]["tiles"].size() == 3);
   CHECK(blocks[1]["tiles"][0]["value"] == "97.8 %");
   CHECK(blocks[2]["type"] == "bars");
@@ -275,9 +278,9 @@ TEST_CASE("an elementary effect has one sign in sentence, tile and bar, and says
   const report::Page page = report::make_sensitivity_page(sensitivity, table, "", scatters);
   const std::vector<report::Block>& blocks = page.sections.front().blocks;
   CHECK(blocks[0]["text"] ==
-        "RRc depends most on ambient: it changes by -0.32 N/kN from 21.25 to 26.25 °C; pressure 0.1 N/kN up or down.");
+        "RRc depends most on ambient: on average, -0.32 N/kN as it rises by 5 °C; pressure 0.1 N/kN up or down.");
   CHECK(blocks[1]["tiles"][0]["value"] == "-0.32");
-  CHECK(blocks[1]["tiles"][0]["note"] == "mean change as it goes up from 21.25 to 26.25 °C");
+  CHECK(blocks[1]["tiles"][0]["note"] == "mean change as it rises by 5 °C");
   CHECK(blocks[1]["tiles"][1]["value"] == "0.1");  // the mean of changes that go either way hides them
   CHECK(blocks[2]["series"][0]["values"] == Json({-0.32, 0.1}));
   CHECK(blocks[2]["series"][0]["low"][0] == Approx(-0.352));
