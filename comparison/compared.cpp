@@ -146,7 +146,7 @@ std::string describe_difference(const Comparison& comparison, const ComparedValu
     more += "no interval";
   }
   if (!shows_difference(difference) && size != 0.0) {
-    return fmt::format("No difference in {} is shown: {} less {} is {}{} ({}, which contains 0)", what, name,
+    return fmt::format("No difference in {} is shown: {} minus {} is {}{} ({}, which contains 0)", what, name,
                        comparison.names.front(), show_difference(difference), unit, more);
   }
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));

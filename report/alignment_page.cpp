@@ -131,7 +131,7 @@ Block make_alignment_residual_chart(const AlignmentResult& result) {
     points.add(point.x, point.residual, point.residual - half, point.residual + half);
   }
   Block block =
-      make_curves({"RRC on this machine", "N/kN"}, {"Reference less line", "N/kN"},
+      make_curves({"RRC on this machine", "N/kN"}, {"Reference minus line", "N/kN"},
                   Json::array({points.finish("alignment tires")}), "Bars: two standard deviations by the repeats.");
   block["marks"] = {0.0};
   return block;

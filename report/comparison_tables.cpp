@@ -34,7 +34,7 @@ bool is_same_value(const ComparedValue& value, std::size_t other) {
 
 /// Differences of one from the reference, of one place. Values that are the same are counted.
 Table make_difference_table(const Comparison& comparison, std::size_t other, const std::string& place) {
-  const std::string title = fmt::format("{}{} less {}", place.empty() ? "" : comparison::label_place(place) + ": ",
+  const std::string title = fmt::format("{}{} minus {}", place.empty() ? "" : comparison::label_place(place) + ": ",
                                         comparison.names[other], comparison.names.front());
   Table table{title, {"name", comparison.names.front(), comparison.names[other], "difference", "+- (95 %)", "%"}, {}};
   std::size_t same = 0;
