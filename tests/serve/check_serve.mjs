@@ -27,6 +27,15 @@ const kCurves = `[...document.querySelectorAll('.times svg path')].map((path) =>
 const settled = () => page.until("!document.querySelector('.status').classList.contains('busy')");
 
 /// Texts, legends and plots stay apart in every width, light and dark.
+/// On paper the controls are left out, and charts are as wide as the sheet.
+async function checkPaper() {
+  await page.evaluate("(dispatchEvent(new Event('beforeprint')), 0)");
+  const widths = await page.evaluate("[document.querySelector('.bench main').clientWidth, ...[...document.querySelectorAll('.bench main .times.part svg')].map((svg) => svg.clientWidth)]");
+  check(widths.length > 1 && Math.min(...widths) > 600, `charts are as wide as a sheet on paper: ${widths.join(', ')} px`);
+  check(await page.evaluate("getComputedStyle(document.querySelector('.bench > aside')).display === 'none'"), 'no controls on paper');
+  await page.evaluate("(dispatchEvent(new Event('afterprint')), 0)");
+}
+
 async function checkBoxes(what) {
   const found = new Set();
   for (const theme of ['light', 'dark']) {
@@ -95,6 +104,7 @@ async function checkEffectsAndTests() {
   await page.choose('#scenario', 'speed_sweep');
   await page.until("document.querySelector('h1').textContent.startsWith('RRc at several speeds')");
   check(true, 'another test is shown');
+  await checkPaper();
   await page.choose('#scenario', 'iso_28580');
   await page.until(`document.querySelector('h1').textContent.startsWith('Whole ISO')`);
 }
