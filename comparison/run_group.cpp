@@ -206,6 +206,20 @@ std::vector<std::string> GroupComparison::list_loads(const RunPhase& phase) cons
   return differ ? loads : std::vector<std::string>();
 }
 
+std::optional<double> GroupComparison::calc_mean_load_N(std::size_t set, const RunPhase& phase) const {
+  if (!has(set) || !run(set).has(models::quantities::kLoad)) return std::nullopt;
+  const RunPhase* own = set == 0 ? &phase : find_phase(phases_[set], phase.name);
+  if (own == nullptr || own->first == own->last) return std::nullopt;
+  const std::vector<double>& load_N = run(set).column(models::quantities::kLoad);
+  double sum_N = 0.0, rows = 0.0;
+  for (std::size_t row = own->first; row < own->last; ++row) {
+    if (!std::isfinite(load_N[row])) continue;
+    sum_N += load_N[row];
+    rows += 1.0;
+  }
+  return rows > 0.0 ? std::optional<double>(sum_N / rows) : std::nullopt;
+}
+
 void GroupComparison::add_values(Comparison& comparison) const {
   for (const RunPhase& phase : phases_.front()) {
     for (const Quantity& channel : measurements::measured_channels(*sets_.front().kind)) {

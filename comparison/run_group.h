@@ -49,6 +49,9 @@ class GroupComparison {
   /// "5.4 kN" of each set in a phase of the reference, empty for a set without it; nothing where all have one load.
   std::vector<std::string> list_loads(const diagnosis::RunPhase& phase) const;
 
+  /// Mean load of a set in a phase of the reference; none where it has not this phase.
+  std::optional<double> calc_mean_load_N(std::size_t set, const diagnosis::RunPhase& phase) const;
+
   /// A value for each channel and phase of the reference that another run has as well, and of the force channel that
   /// less skim: the zero of the sensor cancels, and the loss of the machine.
   void add_values(Comparison& comparison) const;

@@ -36,7 +36,7 @@ Block make_shares(const PlannedCampaign& campaign) {
     shares.push_back(rounded(one->share_percent));
   }
   return make_bars(
-      {"Chance that the effect is visible if it acts", "%"}, names,
+      {"Chance that the effect is visible if it acts, whatever its size", "%"}, names,
       Json::array({{{"name", "visible"}, {"values", shares}}}),
       "Over all sizes that the effect may have: a very small one stays invisible.");
 }
@@ -82,7 +82,7 @@ Page make_campaign_page(const PlannedCampaign& campaign) {
   const std::size_t visible = diagnosis::count_visible(campaign);
   what.blocks.push_back(
       make_lead(visible > 0 ? "good" : "doubt",
-                fmt::format("In {:.1f} h, {} would show {} of {} effects at their usual size.", campaign.hours,
+                fmt::format("In {:.1f} h, {} would show {} of {} effects that have their usual size.", campaign.hours,
                             format_count(campaign.ledger.size(), "test"), visible, campaign.effects.size())));
   what.blocks.push_back(
       make_tiles({{"Visible effects",

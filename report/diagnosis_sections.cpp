@@ -277,6 +277,9 @@ Tile make_certainty_tile(const Findings& findings) {
   }
   const Cause& cause = findings.causes.front();
   Tile sure = tile("probability that it acts", "/causes/0/probability");
+  if (!findings.only.empty()) {
+    sure.note += fmt::format(", of the {} that were compared", format_count(findings.only.size(), "cause"));
+  }
   if (cause.alone.has_value()) sure.note += fmt::format("; that nothing else does: {}", show_probability(*cause.alone));
   return sure;
 }

@@ -184,6 +184,11 @@ Table make_named_table(const Fleet& fleet) {
 
 Page make_fleet_page(const Fleet& fleet) {
   Page page{"diagnose", "Diagnosis of " + format_count(fleet.members.size(), "set"), ""};
+  for (const FleetMember& member : fleet.members) {
+    if (!member.findings.has_value() || !page.subtitle.empty()) continue;
+    const std::string restriction = diagnosis::describe_restriction(*member.findings, &name_effect);
+    if (!restriction.empty()) page.subtitle = "Compared: " + restriction;
+  }
   Section sets{"Sets", "", {make_fleet_lead(fleet), make_fleet_tiles(fleet)}};
   if (has_gap(fleet)) sets.blocks.push_back(make_gaps(fleet));
   sets.blocks.push_back(make_table(make_named_table(fleet)));

@@ -265,9 +265,15 @@ std::string describe_sensitivity(const Json& sensitivity, const std::vector<Fact
     return fmt::format("{} {}{}{}", show_change(factor), unit, has_one_sign(factor) ? "" : " up or down",
                        step.empty() ? "" : " as it rises " + step);
   };
+  const auto limits = [](const Json& factor) {
+    const double sign = find_change(factor) < 0.0 ? -1.0 : 1.0;
+    const auto sizes = std::minmax({sign * factor["mean_size"]["low_95"].get<double>(),
+                                    sign * factor["mean_size"]["high_95"].get<double>()});
+    return fmt::format(" (95 % interval {:.3g} to {:.3g})", sizes.first, sizes.second);
+  };
   text += is_sobol ? fmt::format("it accounts for {} of the variance (95 % interval {})", size(factors[0]),
                                  show_share_limits(factors[0]["total"]))
-                   : "on average, " + size(factors[0]);
+                   : "on average, " + size(factors[0]) + limits(factors[0]);
   for (std::size_t i = 1; i < std::min(kMost, factors.size()); ++i) {
     others.push_back(fmt::format("{} {}", name_factor(factors[i]), size(factors[i])));
   }

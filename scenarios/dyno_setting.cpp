@@ -1,4 +1,6 @@
 /// Dynamometer setting: the force of the rollers with which the vehicle coasts down as on the road (§3.4.3).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,6 +61,7 @@ struct Results {
   Load target{};
   int corrections = 0;
   double largest_difference_N = 0.0;
+  double criterion_N = 0.0;
   bool within_criterion = false;
   std::vector<Difference> differences;
   double highway_J = 0.0;
@@ -91,7 +94,8 @@ struct Results {
                         "{largest_difference_N}."
                       : "The dynamometer is not set: after {iterations} corrections, the force is up to "
                         "{largest_difference_N} off that of the road."});
-    visit(Headline{"Within the criterion", "{within_criterion}", "after {iterations} corrections"});
+    visit(Headline{"Within the criterion", "{within_criterion}",
+                   fmt::format("at most {:g} N at any speed; after {{iterations}} corrections", criterion_N)});
     visit(Headline{"Largest difference to the road", "{largest_difference_N}", "over 20 to 130 km/h"});
     visit(Headline{"Set force at standstill", "{set_A_N}", "road load: {target_A_N}"});
     visit(Headline{"Set force, with speed squared", "{set_C_N_per_km_h2}", "road load: {target_C_N_per_km_h2}"});
@@ -215,6 +219,7 @@ Results run(const RunSpec& spec, Settings settings, const VehicleProgram& progra
     ++results.corrections;
   }
   outcome.settings = settings_to_json(settings);
+  results.criterion_N = settings.criterion_N;
   results.within_criterion = results.largest_difference_N <= settings.criterion_N;
   for (const double speed_m_s : road_load_speeds_m_s()) {
     const auto force_N = [speed_m_s](const Load& load) { return models::calc_road_load_N(load, speed_m_s); };

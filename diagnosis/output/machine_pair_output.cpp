@@ -120,7 +120,7 @@ std::string describe_pair_verdict(const PairFindings& findings, const PairWords&
       break;
   }
   if (!findings.doubt.empty()) return "unexplained: the files are in doubt, before any physics";
-  return fmt::format("{} differ, and no compared effect explains the difference, probability {}", words.machines, unknown);
+  return fmt::format("{} differ in an unknown effect, probability {}; no compared effect explains the difference", words.machines, unknown);
 }
 
 Table make_difference_table(const PairFindings& findings) {

@@ -177,7 +177,7 @@ TEST_CASE("two machines that differ in an unknown effect: the first screen says 
   const report::Page page = report::make_machine_pair_page(findings);
   const Json lead = page.sections.front().blocks.front();
   const std::string text = lead["text"];
-  CHECK(text == "Machines A and B differ, and no compared effect explains the difference, probability 100 %.");
+  CHECK(text == "Machines A and B differ in an unknown effect, probability 100 %; no compared effect explains the difference.");
   CHECK(lead["more"] == "No difference in RRc itself is shown: RRc on A minus that on B is -0.107 +- 0.325 N/kN (95 %).");
   const Json bars = find_block(page, "bars");
   CHECK(bars["series"][0]["values"] == Json({1.9, -1.3}));  // the largest first
