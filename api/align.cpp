@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "api/add_uncertainty.h"
 #include "estimation/alignment/alignment.h"
 #include "estimation/alignment/alignment_doubts.h"
 #include "estimation/alignment/alignment_uncertainty.h"
+#include "measurements/logs/time_stamps.h"
 #include "report/alignment_page.h"
 #include "sim/core/columns.h"
 #include "sim/core/error.h"
@@ -46,6 +49,7 @@ Json make_value_json(const AlignedValueInput& input, const estimation::StoredAli
   Json json = {{"format", "rollrig-aligned-value/1"},
                {"alignment", input.alignment},
                {"machine", stored.machine},
+               {"classes", stored.classes},
                {"measured_N_per_kN", input.rrc_N_per_kN},
                {"measurements", input.measurements},
                {"alignment_is_valid", value.is_valid},
@@ -74,30 +78,65 @@ void check_value_input(const AlignedValueInput& input) {
                     ""});
 }
 
+std::string find_day(const AlignedValueInput& input) {
+  return input.on.empty() ? report::find_report_date() : input.on;
+}
+
 /// Why an alignment does not hold for a value; empty where it does.
 std::vector<std::string> list_reasons_against(const AlignedValueInput& input,
                                               const estimation::StoredAlignment& stored) {
   std::vector<std::string> reasons;
   if (!stored.is_valid) reasons.push_back("the alignment is not valid: its own report says why");
-  const std::string on = input.on.empty() ? report::find_report_date() : input.on;
+  const std::string on = find_day(input);
   const double on_s = estimation::read_day_s(on, "--on");
   if (on_s > estimation::read_day_s(stored.valid_until, "valid_until")) {
     reasons.push_back(fmt::format("the alignment was valid until {}, which is before {}", stored.valid_until, on));
   }
-  if (on_s < estimation::read_day_s(stored.last_measurement, "last_measurement")) {
+  if (on_s < estimation::read_day_s(stored.valid_from, "valid_from")) {
     reasons.push_back(
         fmt::format("the alignment was measured until {}, which is after {}: it does not hold for a value "
                     "of that day",
-                    stored.last_measurement, on));
+                    stored.valid_from, on));
   }
   return reasons;
+}
+
+/// What the control tires of the alignment leave open on the day of the value.
+std::optional<std::string> doubt_controls(const std::string& on, const estimation::StoredAlignment& stored) {
+  if (stored.last_control.empty()) return std::nullopt;
+  const double days = (estimation::read_day_s(on, "--on") -
+                       estimation::read_day_s(stored.last_control, "monitoring.tires")) /
+                      measurements::kDay_s;
+  if (days <= estimation::kMostControlDays) return std::nullopt;
+  return fmt::format(
+      "the alignment has control measurements until {}, {:.0f} days before {}; expected {:g} at most (UN R117 Annex 6; "
+      "second-hand): align with the later ones, which show whether the machine has drifted",
+      stored.last_control, days, on, estimation::kMostControlDays);
+}
+
+/// Refuses a value of a class that the alignment does not hold for.
+void check_value_class(const AlignedValueInput& input, const estimation::StoredAlignment& stored) {
+  if (input.tire_class.empty()) return;
+  const auto& known = estimation::kTireClasses;
+  if (std::find(known.begin(), known.end(), input.tire_class) == known.end()) {
+    InputProblem problem = unknown_name("tire class", input.tire_class, known);
+    problem.file = "command line";
+    problem.key = "--class";
+    throw InputError(problem);
+  }
+  if (stored.classes.find(input.tire_class) != std::string::npos) return;
+  throw InputError({fmt::format("the alignment does not hold for class {}", input.tire_class), input.alignment, 0,
+                    "--class", input.tire_class, stored.classes, ""});
 }
 
 /// Whether the alignment holds for the value, and what else is to be said of it.
 void judge_value(const AlignedValueInput& input, const estimation::StoredAlignment& stored, AlignedValue& value) {
   value.warnings = list_reasons_against(input, stored);
   value.is_valid = value.warnings.empty();
-  if (input.rrc_N_per_kN < stored.low_N_per_kN || input.rrc_N_per_kN > stored.high_N_per_kN) {
+  if (const auto doubt = doubt_controls(find_day(input), stored); doubt.has_value()) value.warnings.push_back(*doubt);
+  constexpr double kShown_N_per_kN = 0.005;  // to which a value and the range are shown
+  if (input.rrc_N_per_kN < stored.low_N_per_kN - kShown_N_per_kN ||
+      input.rrc_N_per_kN > stored.high_N_per_kN + kShown_N_per_kN) {
     value.warnings.push_back(
         fmt::format("{:.2f} N/kN lies outside the alignment tires, {:.2f} to {:.2f} N/kN: the line is "
                     "extrapolated",
@@ -156,12 +195,13 @@ AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOp
   check_uncertainty(uncertainty);
   check_value_input(input);
   const estimation::StoredAlignment stored = estimation::read_alignment_json(input.alignment);
+  check_value_class(input, stored);
   const estimation::UncertainValue aligned =
       estimation::align_value(stored.line, input.rrc_N_per_kN, input.measurements);
   AlignedValue value;
   value.rrc = make_estimate("rrc_aligned", aligned.value, aligned.sd, aligned.coverage_factor, "N/kN");
   judge_value(input, stored, value);
-  value.text = fmt::format("align   {}\n", input.alignment) +
+  value.text = fmt::format("align   {}   classes {}\n", input.alignment, stored.classes) +
                format_tables(report::make_aligned_value_tables(input.rrc_N_per_kN, input.measurements, aligned));
   Json json = make_value_json(input, stored, aligned, value);
   if (wants_uncertainty(uncertainty)) {

@@ -12,7 +12,7 @@ namespace rollrig::cli {
 namespace {
 
 constexpr const char* kOfApply =
-    "--rrc, --measurements, --on, --uncertainty, --monte-carlo, --seed, --threads, --json, --quiet";
+    "--rrc, --class, --measurements, --on, --uncertainty, --monte-carlo, --seed, --threads, --json, --quiet";
 
 struct AlignOptions {
   AlignmentInput input;
@@ -94,6 +94,8 @@ void add_align_command(CLI::App& app, Action& action) {
       command->add_option("--rrc", options->value.rrc_N_per_kN, "Measured value in N/kN, at 25 degC, 2 m drum");
   apply->needs(rrc);
   rrc->needs(apply);
+  command->add_option("--class", options->value.tire_class, "Tire class of --rrc: C1, C2 or C3 [not checked]")
+      ->needs(apply);
   command->add_option("--measurements", options->value.measurements, "Measurements whose mean --rrc is [1]")
       ->needs(apply);
   options->output.add_to(*command, "File for the alignment, - for standard output",

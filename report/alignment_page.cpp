@@ -110,8 +110,9 @@ Table make_control_table(const AlignmentResult& result) {
 Table make_drift_table(const estimation::ControlDrift& drift) {
   return {"",
           {},
-          {{"drift", fmt::format("{:+.3f} N/kN a year ({:+.3f} to {:+.3f}), p = {:.3f}", drift.N_per_kN_per_year,
-                                 drift.low_95, drift.high_95, drift.p_value)}}};
+          {{"drift", fmt::format("{:+.3f} N/kN a year ({:+.3f} to {:+.3f}), p = {}", drift.N_per_kN_per_year,
+                                 drift.low_95, drift.high_95,
+                                 estimation::format_p_value(drift.p_value, estimation::kDriftLevel))}}};
 }
 
 Block make_line_chart(const AlignmentResult& result) {

@@ -87,10 +87,17 @@ std::string make_html_of(const ReportTable& table) {
   }
   const std::vector<bool> numbers = find_numbers(table);
   std::string html = "<table>\n";
-  if (!table.title.empty()) html += fmt::format("<caption>{}</caption>\n", escape_html(table.title));
   const auto is_empty = [](const std::string& column) { return column.empty(); };
-  if (!std::all_of(table.columns.begin(), table.columns.end(), is_empty)) {
-    html += "<thead><tr>";
+  const bool has_head = !std::all_of(table.columns.begin(), table.columns.end(), is_empty);
+  if (!table.title.empty() && !has_head) html += fmt::format("<caption>{}</caption>\n", escape_html(table.title));
+  if (has_head) {
+    html += "<thead>";
+    // In the head, which print repeats: a table that continues on the next page has its name there.
+    if (!table.title.empty()) {
+      html += fmt::format("<tr class=\"title\"><th colspan=\"{}\">{}</th></tr>\n", table.columns.size(),
+                          escape_html(table.title));
+    }
+    html += "<tr>";
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       html += make_cell_html("th", {table.columns[i]}, numbers[i] ? "right" : "");
     }

@@ -78,13 +78,38 @@ void require_one_tire(const MeasurementSet& a, const MeasurementSet& b) {
   });
 }
 
+/// How many of the rows with a force have that of the row before.
+double find_still_share(const std::vector<double>& force) {
+  double rows = 0.0, still = 0.0;
+  for (std::size_t i = 1; i < force.size(); ++i) {
+    if (std::isnan(force[i])) continue;
+    rows += 1.0;
+    still += force[i] == force[i - 1] ? 1.0 : 0.0;
+  }
+  return rows > 0.0 ? still / rows : 1.0;
+}
+
+/// Whether most rows of the shorter run are, at the same time, rows of the other: rows may have been left out or changed.
+/// Coarse readings are equal by chance, about as often as those of successive rows of one run.
 bool is_same_recording(const measurements::MeasuredRun& a, const measurements::MeasuredRun& b, const Quantity& force) {
-  if (!a.has(force) || !b.has(force) || a.time_s != b.time_s) return false;
+  constexpr double kMost = 0.5;  // Assumed: of the rows
+  if (!a.has(force) || !b.has(force)) return false;
   const std::vector<double>& first = a.column(force);
   const std::vector<double>& second = b.column(force);
-  return a.has_samples(force) && std::equal(first.begin(), first.end(), second.begin(), [](double x, double y) {
-           return x == y || (std::isnan(x) && std::isnan(y));
-         });
+  double equal = 0.0;
+  for (std::size_t i = 0, k = 0; i < first.size() && k < second.size();) {
+    const double from_a_s = a.time_s[i], from_b_s = b.time_s[k];
+    if (from_a_s == from_b_s && first[i] == second[k]) equal += 1.0;
+    if (from_a_s <= from_b_s) ++i;
+    if (from_b_s <= from_a_s) ++k;
+  }
+  const auto count = [](const std::vector<double>& values) {
+    return static_cast<double>(std::count_if(values.begin(), values.end(), [](double x) { return !std::isnan(x); }));
+  };
+  const double rows = std::min(count(first), count(second));
+  if (!(rows > 0.0)) return false;
+  const double by_chance = std::max(find_still_share(first), find_still_share(second));
+  return equal == rows || equal / rows > std::max(kMost, 0.5 * (1.0 + by_chance));
 }
 
 void require_own_recordings(const MeasurementSet& a, const MeasurementSet& b) {
@@ -95,6 +120,37 @@ void require_own_recordings(const MeasurementSet& a, const MeasurementSet& b) {
                         other.id, "runs that each machine measured itself", ""});
     }
   }
+}
+
+/// A unit in which a force or torque may have been recorded instead of that of its column.
+struct OtherForceUnit {
+  const char* name;
+  double SI = 1.0;
+};
+
+/// Why the force of one machine may be in another unit; empty where it is not likely. Machines that test one tire differ
+/// by less than 20 %, and all of these units by more. Load has such a check in each set by itself (list_wrong_units()).
+/// Source  NIST SP 811 for the units. Assumed: 4 % about a unit's factor, by which machines may differ besides
+std::string doubt_force_unit(const measurements::MeasurementSet& a, double ratio) {
+  constexpr double kNear = 0.04;
+  constexpr double kFoot_m = 0.3048;
+  const Quantity& force = a.kind->traits.force;
+  const bool is_torque = force.unit_suffix() == "Nm";
+  const std::vector<OtherForceUnit> units =
+      is_torque ? std::vector<OtherForceUnit>{{"lbf ft", kPoundForce_N * kFoot_m}, {"kgf m", kStandardGravity_m_s2}}
+                : std::vector<OtherForceUnit>{{"lbf", kPoundForce_N}, {"kgf", kStandardGravity_m_s2}};
+  for (const OtherForceUnit& unit : units) {
+    for (const std::size_t machine : {0, 1}) {
+      const double expected = machine == 0 ? unit.SI : 1.0 / unit.SI;
+      if (!(std::abs(std::log(ratio / expected)) <= kNear)) continue;
+      return fmt::format(
+          "{}: {} seems to be in {} and not in {}: RRc on B is {:.3f} times that on A, and one {} is {:.4g} {}; no cause "
+          "is named until that is corrected",
+          letter_of_machine(machine), force.header(), unit.name, force.unit_suffix(), ratio, unit.name, unit.SI,
+          force.unit_suffix());
+    }
+  }
+  return "";
 }
 
 /// Throws InputError for an effect in which machines cannot differ.
@@ -204,6 +260,10 @@ PairFindings diagnose_pair(const MeasurementSet& a, const MeasurementSet& b, con
     if (findings.probability["unknown"] >= findings.causes.front().probability) {
       findings.verdict = PairVerdict::kUnexplained;
     }
+  }
+  if (findings.doubt.empty()) {
+    findings.doubt = doubt_force_unit(a, read_rrc_ratio(study.set, study.null.fit.simulated));
+    if (!findings.doubt.empty()) findings.warnings.push_back(findings.doubt);
   }
   if (!findings.doubt.empty()) {
     findings.verdict = PairVerdict::kUnexplained;

@@ -1,6 +1,7 @@
 #include "diagnosis/pair/rrc_difference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -117,6 +118,19 @@ class RrcLine {
 
   bool is_known() const { return loaded_.size() == kMachines; }
 
+  /// The slope of each machine alone, of forces that are no differences.
+  std::array<double, kMachines> find_slopes(const Eigen::VectorXd& forces) const {
+    Eigen::MatrixXd normal = normal_;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(normal.rows());
+    for (const TakenReadings& one : all_) {
+      const Columns design = whiten_design(one);
+      normal += design.transpose() * design;
+      right += design.transpose() * whiten_readings(one, forces);
+    }
+    const Eigen::VectorXd unknowns = normal.ldlt().solve(right);
+    return {unknowns[0], unknowns[1]};
+  }
+
   rollrig::RrcEstimate estimate(const Eigen::VectorXd& difference) {
     std::vector<Columns> design;
     std::vector<Eigen::VectorXd> readings;
@@ -190,6 +204,17 @@ rollrig::RrcEstimate read_rrc_difference(const PreparedSet& set, const Eigen::Ve
     return {nothing, nothing, nothing};
   }
   return line.estimate(set.measured() - simulated);
+}
+
+double read_rrc_ratio(const PreparedSet& set, const Eigen::VectorXd& simulated) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const RrcLine line(set);
+  if (!line.is_known()) return nothing;
+  const auto measured = line.find_slopes(set.measured()), expected = line.find_slopes(simulated);
+  for (const auto& slopes : {measured, expected}) {
+    if (!(slopes[0] > 0.0 && slopes[1] > 0.0)) return nothing;
+  }
+  return (measured[1] / expected[1]) / (measured[0] / expected[0]);
 }
 
 }  // namespace rollrig::diagnosis

@@ -21,4 +21,11 @@ namespace rollrig::diagnosis {
 /// Checked   tests/diagnosis/machine_rrc_difference_test.cpp
 rollrig::RrcEstimate read_rrc_difference(const PreparedSet& set, const Eigen::VectorXd& simulated);
 
+/// The coefficient on the second machine over that on the first, each over its own simulated one, so that the ratio is 1
+/// where the machines agree, whatever the speeds, loads and pressures of their tests.
+/// Equation  (d_B/d_sim,B)/(d_A/d_sim,A), with d_m of F and d_sim,m of F_sim by the line of read_rrc_difference()
+/// Validity  NaN where one of the machines has no constant speed under load, or a coefficient is not positive
+/// Checked   tests/diagnosis/machine_rrc_difference_test.cpp
+double read_rrc_ratio(const PreparedSet& set, const Eigen::VectorXd& simulated);
+
 }  // namespace rollrig::diagnosis

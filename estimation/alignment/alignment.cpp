@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "estimation/alignment/alignment_doubts.h"
+#include "measurements/logs/time_stamps.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 
@@ -17,7 +19,11 @@ namespace {
 constexpr const char* kSection1 = "EU 2020/740 Annex V, 1(4) and 5";
 constexpr const char* kSection2 = "EU 2020/740 Annex V, 2.2; second-hand";
 constexpr const char* kSection5 = "EU 2020/740 Annex V, 5";
+constexpr const char* kSection3 = "EU 2020/740 Annex V, 3; Assumed: not read";
 constexpr double kMostBend_N_per_kN = 0.02;  // Assumed: a fifth of the 0.1 N/kN to which a label is rounded
+constexpr double kMostScatter_N_per_kN = 0.1;  // Assumed: of tires about a line; a label is rounded to it
+constexpr double kNoLineLevel = 0.001;         // Assumed: of significance of such scatter
+constexpr double kMostChange = 0.2;            // Assumed: of a value, by a line between two machines
 
 std::vector<std::vector<double>> list_groups(const AlignmentFile& file, TireMeasurements AlignmentTire::*side) {
   std::vector<std::vector<double>> groups;
@@ -25,11 +31,12 @@ std::vector<std::vector<double>> list_groups(const AlignmentFile& file, TireMeas
   return groups;
 }
 
-/// Standard deviation of a mean of that many values, by the mean of 1/n over the tires.
-double calc_sd_of_mean(double sd, const std::vector<std::vector<double>>& groups) {
+/// Standard deviation of a mean of that many values, by the mean of 1/n over the tires. Rounding errors larger than the
+/// scatter are alike in all values of a tire, so that a mean has them whole.
+double calc_sd_of_mean(double sd, const std::vector<std::vector<double>>& groups, double step) {
   double inverse = 0.0;
   for (const std::vector<double>& group : groups) inverse += 1.0 / static_cast<double>(group.size());
-  return sd * std::sqrt(inverse / static_cast<double>(groups.size()));
+  return std::max(sd * std::sqrt(inverse / static_cast<double>(groups.size())), calc_rounding_sd(step));
 }
 
 void fit_machines(const AlignmentFile& file, AlignmentResult& result) {
@@ -38,14 +45,21 @@ void fit_machines(const AlignmentFile& file, AlignmentResult& result) {
     x.push_back(tire.candidate.mean());
     y.push_back(tire.reference_N_per_kN);
   }
+  const double step = find_candidate_step(file), reference_step = find_reference_step(file);
   const auto candidate = list_groups(file, &AlignmentTire::candidate);
-  result.sigma_m = pool_repeats(candidate);
-  RepeatScatter repeats{calc_sd_of_mean(result.sigma_m.sd, candidate), 0.0, result.sigma_m.degrees_of_freedom};
+  const ScatterEstimate of_candidate = pool_repeats(candidate);
+  result.sigma_m = add_rounding(of_candidate, step);
+  RepeatScatter repeats{calc_sd_of_mean(of_candidate.sd, candidate, step), calc_rounding_sd(reference_step),
+                        of_candidate.degrees_of_freedom};
+  result.plain_repeats = {calc_sd_of_mean(of_candidate.sd, candidate, 0.0), 0.0, of_candidate.degrees_of_freedom};
   if (!file.reference_machine.empty()) {
     const auto reference = list_groups(file, &AlignmentTire::reference);
-    result.sigma_l = pool_repeats(reference);
-    repeats.reference_sd = calc_sd_of_mean(result.sigma_l->sd, reference);
-    repeats.degrees_of_freedom += result.sigma_l->degrees_of_freedom;
+    const ScatterEstimate of_reference = pool_repeats(reference);
+    result.sigma_l = add_rounding(of_reference, reference_step);
+    repeats.reference_sd = calc_sd_of_mean(of_reference.sd, reference, reference_step);
+    result.plain_repeats.reference_sd = calc_sd_of_mean(of_reference.sd, reference, 0.0);
+    repeats.degrees_of_freedom += of_reference.degrees_of_freedom;
+    result.plain_repeats.degrees_of_freedom = repeats.degrees_of_freedom;
   }
   if (!(x.back() > x.front())) {
     throw InputError({"all tires have one measured value", file.path, 0, "tire", fmt::format("{:g} N/kN", x.front()),
@@ -61,21 +75,10 @@ void fit_machines(const AlignmentFile& file, AlignmentResult& result) {
 }
 
 AlignmentLine make_line(const AlignmentResult& result, const AlignmentInput& input) {
-  const LineFit& fit = result.fit;
-  const double p = static_cast<double>(fit.points.size());
-  AlignmentLine line;
+  AlignmentLine line = make_alignment_line(result.fit, result.sigma_m,
+                                           result.sigma_l.has_value() ? result.sigma_l->degrees_of_freedom
+                                                                      : std::numeric_limits<double>::infinity());
   if (input.reference.has_value()) std::tie(line.A1, line.B1) = *input.reference;
-  line.A2 = fit.slope;
-  line.B2 = fit.offset;
-  line.tires = p;
-  line.mean_x = fit.mean_x;
-  line.Sxx = fit.Sxx;
-  line.line_sd = fit.sd;
-  line.line_freedom = fit.freedom;
-  line.between_sd = fit.between_sd;
-  line.between_freedom = p - 2.0;
-  line.sigma_m = result.sigma_m.sd;
-  line.sigma_m_freedom = result.sigma_m.degrees_of_freedom;
   return line;
 }
 
@@ -117,6 +120,13 @@ void add_rules(const AlignmentFile& file, AlignmentResult& result) {
       {"sigma_m", fmt::format("{:.3f} N/kN", result.sigma_m.sd),
        fmt::format("<= {:g} N/kN, or {} measurements of each tire", rules.sigma_m_N_per_kN, result.needed_measurements),
        kSection5, is_repeatable || has_enough});
+  const LineFit& fit = result.fit;
+  const bool is_line = fit.lack_of_fit_p >= kNoLineLevel || fit.residual_sd <= kMostScatter_N_per_kN;
+  result.checks.push_back({"the line describes the tires",
+                           fmt::format("{:.3f} N/kN about it, by repeats {:.3f} (p = {})", fit.residual_sd,
+                                       fit.repeat_sd, format_p_value(fit.lack_of_fit_p, kNoLineLevel)),
+                           fmt::format("<= {:g} N/kN, or p >= {:g}", kMostScatter_N_per_kN, kNoLineLevel),
+                           "statistics; Assumed", is_line});
   if (!file.reference_machine.empty()) {
     double first_of_reference_s = std::numeric_limits<double>::infinity();
     for (const AlignmentTire& tire : file.tires) {
@@ -152,13 +162,24 @@ void add_advice(const AlignmentFile& file, AlignmentResult& result) {
          fmt::format("{:.3f} N/kN, by repeats {:.3f} (p = {})", fit.residual_sd, fit.repeat_sd,
                      format_p_value(fit.lack_of_fit_p, kLevel)),
          level, fit.lack_of_fit_p >= kLevel);
-  const auto worst = std::max_element(fit.points.begin(), fit.points.end(),
-                                      [](const auto& a, const auto& b) { return a.p_value > b.p_value; });
+  const auto weigh = [](const LinePoint& point) {
+    return std::abs(std::isfinite(point.studentized) ? point.studentized : point.residual);
+  };
+  const auto worst =
+      std::max_element(fit.points.begin(), fit.points.end(),
+                       [&weigh](const LinePoint& a, const LinePoint& b) { return weigh(a) < weigh(b); });
   const std::size_t index = static_cast<std::size_t>(worst - fit.points.begin());
   advise("largest residual",
          fmt::format("tire '{}': {:+.3f} N/kN (p = {})", file.tires[index].name, worst->residual,
                      format_p_value(worst->p_value, kLevel)),
          level, worst->p_value >= kLevel);
+  if (result.sigma_l.has_value()) {
+    const ScatterEstimate& sigma_l = *result.sigma_l;
+    result.checks.push_back({"sigma_m of the reference machine",
+                             fmt::format("{:.3f} N/kN ({:.3f} to {:.3f})", sigma_l.sd, sigma_l.low_95, sigma_l.high_95),
+                             fmt::format("<= {:g} N/kN, or within the interval", file.rules.reference_sigma_N_per_kN),
+                             kSection3, sigma_l.low_95 <= file.rules.reference_sigma_N_per_kN, false});
+  }
   const auto far = std::max_element(fit.points.begin(), fit.points.end(),
                                     [](const auto& a, const auto& b) { return a.leverage < b.leverage; });
   advise("largest leverage",
@@ -171,15 +192,24 @@ void add_advice(const AlignmentFile& file, AlignmentResult& result) {
          fmt::format("<= {:g} N/kN", kMostBend_N_per_kN), bend <= kMostBend_N_per_kN);
 }
 
+double calc_days_since(const ControlChart& chart, double day_s) {
+  return std::floor(day_s / measurements::kDay_s) - std::floor(chart.time_s.back() / measurements::kDay_s);
+}
+
 void add_monitoring(const AlignmentFile& file, AlignmentResult& result) {
   for (const ControlChart& chart : result.monitoring.charts) {
+    const double gap_days = std::max(chart.largest_gap_days, calc_days_since(chart, result.judged_on_s));
     result.checks.push_back({fmt::format("control tire '{}': days between measurements", chart.tire),
-                             fmt::format("{:.0f} at most", chart.largest_gap_days),
+                             fmt::format("{:.0f} at most, until {}", gap_days, format_day(result.judged_on_s)),
                              fmt::format("<= {:g}", kMostControlDays), "UN R117 Annex 6; second-hand",
-                             chart.largest_gap_days <= kMostControlDays, false});
+                             gap_days <= kMostControlDays, false});
     if (chart.rrc_N_per_kN.size() < kLeastControlMeasurements) {
       result.warnings.push_back(fmt::format("control tire '{}' has {}: too few for limits of its own", chart.tire,
                                             format_count(chart.rrc_N_per_kN.size(), "measurement")));
+    } else if (chart.sd_N_per_kN == 0.0) {
+      result.warnings.push_back(describe_equal_values(
+          fmt::format("the {} values of control tire '{}'", chart.rrc_N_per_kN.size(), chart.tire),
+          find_candidate_step(file)));
     }
   }
   for (const ControlChart& chart : result.monitoring.charts) {
@@ -203,10 +233,12 @@ void judge_validity(const AlignmentFile& file, const AlignmentInput& input, Alig
   constexpr double kNever_s = -std::numeric_limits<double>::infinity();
   const double changed_s =
       input.machine_changed.empty() ? kNever_s : read_day_s(input.machine_changed, "--machine-changed");
-  result.judged_on_s = input.on.empty() ? std::max(file.newest_s, changed_s) : read_day_s(input.on, "--on");
-  if (format_day(result.judged_on_s) < format_day(file.last_s)) {
+  const double earliest_s = std::max(file.last_s, file.complete_s);
+  result.judged_on_s =
+      input.on.empty() ? std::max({file.newest_s, earliest_s, changed_s}) : read_day_s(input.on, "--on");
+  if (format_day(result.judged_on_s) < format_day(earliest_s)) {
     throw InputError({"validity is judged on a day before the last measurement of the alignment", "command line", 0,
-                      "--on", input.on, fmt::format("{} or later", format_day(file.last_s)), ""});
+                      "--on", input.on, fmt::format("{} or later", format_day(earliest_s)), ""});
   }
   if (result.judged_on_s > result.valid_until_s) {
     result.due_because.push_back(fmt::format("the alignment was valid until {}", format_day(result.valid_until_s)));
@@ -238,25 +270,34 @@ void require_reference_line(double A1, double B1_N_per_kN) {
                     ""});
 }
 
+/// A line between two machines that changes a value by more than machines differ.
+std::optional<std::string> doubt_line(const char* A, const char* B, double slope, double offset, double low,
+                                      double high) {
+  const auto calc_change = [&](double value) { return (slope * value + offset) / value - 1.0; };
+  const double most = std::max({std::abs(slope - 1.0), std::abs(calc_change(low)), std::abs(calc_change(high))});
+  if (most <= kMostChange) return std::nullopt;
+  return fmt::format(
+      "{} = {:.3f} and {} = {:.3f} N/kN change RRC by {:+.0f} % at {:.2f} N/kN and by {:+.0f} % at {:.2f} N/kN; machines "
+      "seldom differ by more than {:.0f} %: are both values corrected to 25 degC and the 2 m drum, and in one unit?",
+      A, slope, B, offset, 100.0 * calc_change(low), low, 100.0 * calc_change(high), high, 100.0 * kMostChange);
+}
+
 void add_line_warnings(AlignmentResult& result) {
   if (!result.is_of_network) {
     result.warnings.push_back(
         "A1 and B1 of the reference laboratory are not given (--reference): the result is aligned "
         "to its machine, not to the network");
   }
-  constexpr double kLeastScatter_N_per_kN = 1e-6;  // Assumed: far below any resolution; means of equal values round
-  if (result.sigma_m.sd <= kLeastScatter_N_per_kN) {
-    result.warnings.push_back("all measurements of each tire are equal: real measurements scatter. Were they copied?");
-  }
-  if (std::abs(result.line.A2 - 1.0) > 0.2) {
-    result.warnings.push_back(
-        fmt::format("A2 = {:.3f} is far from 1: are both values corrected to 25 degC and the 2 m "
-                    "drum, and in one unit?",
-                    result.line.A2));
+  const LineFit& fit = result.fit;
+  const double low = fit.points.front().x, high = fit.points.back().x;
+  for (const auto& doubt :
+       {doubt_line("A2", "B2", result.line.A2, result.line.B2, low, high),
+        doubt_line("A1", "B1", result.line.A1, result.line.B1, fit.value(low), fit.value(high))}) {
+    if (doubt.has_value()) result.warnings.push_back(*doubt);
   }
   for (const AlignmentCheck& check : result.checks) {
     if (!check.is_met && !check.is_rule) {
-      result.warnings.push_back(fmt::format("{}: {} ({})", check.name, check.found, check.limit));
+      result.warnings.push_back(fmt::format("{}: {}; expected {}", check.name, check.found, check.limit));
     }
   }
 }
@@ -293,10 +334,14 @@ AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& i
   if (!input.preliminary) require_rules(file, result.checks);
   add_advice(file, result);
   result.monitoring = watch_control_tires(file.controls);
-  add_monitoring(file, result);
   judge_validity(file, input, result);
+  add_monitoring(file, result);
   add_line_warnings(result);
   for (const std::string& doubt : list_value_doubts(file)) result.warnings.push_back(doubt);
+  for (const std::string& doubt : list_line_doubts(file, result.fit, result.plain_repeats)) {
+    result.warnings.push_back(doubt);
+  }
+  for (const std::string& doubt : list_time_doubts(file)) result.warnings.push_back(doubt);
   return result;
 }
 

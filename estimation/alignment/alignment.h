@@ -18,6 +18,7 @@ struct AlignmentResult {
   AlignmentLine line;
   ScatterEstimate sigma_m;                 // of the candidate machine
   std::optional<ScatterEstimate> sigma_l;  // of the reference machine, where its measurements are there
+  RepeatScatter plain_repeats;             // of the means, without the rounding of the values
   std::size_t needed_measurements = 4;     // of each tire, at this sigma_m
   ControlMonitoring monitoring;
   std::vector<AlignmentCheck> checks;
@@ -56,11 +57,14 @@ Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& resul
 /// The numbers of such a document that a later value needs.
 struct StoredAlignment {
   AlignmentLine line;
-  std::string machine, last_measurement, valid_until;
+  std::string machine, classes;
+  std::string valid_from;   // day of the last measurement that the alignment uses
+  std::string valid_until;
+  std::string last_control;  // day of the last measurement of the control tire that was measured longest ago; may be empty
   double low_N_per_kN = 0.0, high_N_per_kN = 0.0;  // range of the tires on the candidate machine
   bool is_valid = false;
 };
-/// Errors  InputError: no such document, a key that is missing or wrong
+/// Errors  InputError: no such document, a key that is missing or wrong, keys that contradict each other
 StoredAlignment read_alignment_json(const std::string& path);
 
 /// A row for each measurement.

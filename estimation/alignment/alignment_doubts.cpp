@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -21,7 +22,11 @@ namespace {
 constexpr double kCopiedShare = 0.9;           // of the candidate's values that are used
 constexpr double kCopiedMachineChance = 1e-4;  // that as many are equal without a copy
 constexpr double kCopiedRoundChance = 0.01;    // that any two rounds are equal without a copy
+constexpr double kCopiedMeansChance = 1e-3;    // that as many values are the candidate's means without a copy
+constexpr double kTooNearLevel = 1e-4;         // of significance of tires that are too near to their line
+constexpr double kCoarseStep_N_per_kN = 0.05;  // of values; sigma_m is of this order
 constexpr std::size_t kLeastRoundTires = 3;
+constexpr std::size_t kLeastTireValues = 3;
 
 /// Values that the tires have in one round, by tire.
 struct TireRound {
@@ -126,6 +131,10 @@ EqualCount count_equal_values(const std::vector<TireRound>& rounds) {
   return count;
 }
 
+std::string show_on_machine(const std::string& machine) {
+  return machine.empty() ? "" : fmt::format(" on machine '{}'", machine);
+}
+
 std::string show_days(const TireRound& round) {
   const std::string first = format_day(round.first_s), last = format_day(round.last_s);
   return first == last ? first : fmt::format("{} to {}", first, last);
@@ -143,8 +152,7 @@ std::optional<std::string> doubt_copied_round(std::vector<TireRound> rounds, con
     const auto [before, is_new] = seen.emplace(round.values, &round);
     if (is_new || pairs * std::pow(equal, static_cast<double>(round.values.size())) > kCopiedRoundChance) continue;
     return fmt::format("{} have the same values{} on {} and on {}: real measurements scatter. Were they copied?",
-                       format_count(round.values.size(), "tire"),
-                       machine.empty() ? "" : fmt::format(" on machine '{}'", machine), show_days(*before->second),
+                       format_count(round.values.size(), "tire"), show_on_machine(machine), show_days(*before->second),
                        show_days(round));
   }
   return std::nullopt;
@@ -154,6 +162,82 @@ std::optional<std::string> doubt_copied_rounds(const AlignmentFile& file, TireMe
                                                const std::string& machine) {
   const auto doubt = doubt_copied_round(list_rounds_by_order(file, side), machine);
   return doubt.has_value() ? doubt : doubt_copied_round(list_rounds_by_day(file, side), machine);
+}
+
+std::optional<std::string> doubt_equal_values(const AlignmentFile& file, TireMeasurements AlignmentTire::*side,
+                                              const std::string& machine, double step) {
+  for (const AlignmentTire& tire : file.tires) {
+    const std::vector<double> values = (tire.*side).used();
+    if (values.size() < 2) return std::nullopt;
+    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+    if (*least != *greatest) return std::nullopt;
+  }
+  return describe_equal_values(fmt::format("all measurements of each tire{}", show_on_machine(machine)), step);
+}
+
+std::vector<double> list_in_order(const TireMeasurements& measured) {
+  std::vector<double> values;
+  for (const AlignmentMeasurement& one : measured.all) values.push_back(one.rrc_N_per_kN);
+  return values;
+}
+
+/// Tires that have the values of an earlier one, in the same order.
+std::vector<std::string> doubt_copied_tires(const AlignmentFile& file, TireMeasurements AlignmentTire::*side,
+                                            const std::string& machine) {
+  const double equal = count_equal_pairs(file).share();
+  const double tires = static_cast<double>(file.tires.size());
+  const double pairs = 0.5 * tires * (tires - 1.0);
+  std::map<std::vector<double>, std::string> seen;
+  std::vector<std::string> doubts;
+  for (const AlignmentTire& tire : file.tires) {
+    const std::vector<double> values = list_in_order(tire.*side);
+    if (values.size() < kLeastTireValues) continue;
+    const auto [before, is_new] = seen.emplace(values, tire.name);
+    if (is_new || pairs * std::pow(equal, static_cast<double>(values.size())) > kCopiedRoundChance) continue;
+    doubts.push_back(fmt::format("tire '{}' has the {} values of tire '{}'{}: were they copied?", tire.name,
+                                 values.size(), before->second, show_on_machine(machine)));
+  }
+  return doubts;
+}
+
+/// The chance that a value of the reference is the candidate's mean within its rounding, on two machines that measure
+/// alike.
+double calc_chance_of_mean(double tolerance, const RepeatScatter& repeats) {
+  const double sd = std::hypot(repeats.candidate_sd, repeats.reference_sd);
+  if (!(sd > 0.0)) return 1.0;
+  return 1.0 - 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), tolerance / sd));
+}
+
+std::optional<std::string> doubt_copied_means(const AlignmentFile& file, const RepeatScatter& repeats) {
+  constexpr double kRounding_N_per_kN = 1e-6;  // of a mean that is written with all its digits
+  const double tolerance = 0.5 * find_reference_step(file) + kRounding_N_per_kN;
+  const double count = static_cast<double>(file.tires.size());
+  for (const bool only_used : {true, false}) {
+    double found = 0.0;
+    for (const AlignmentTire& tire : file.tires) {
+      const std::vector<double> values = only_used ? tire.candidate.used() : list_in_order(tire.candidate);
+      const double mean =
+          std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+      found += std::abs(tire.reference_N_per_kN - mean) <= tolerance ? 1.0 : 0.0;
+    }
+    if (found < kCopiedShare * count) continue;
+    if (calc_binomial_tail(count, calc_chance_of_mean(tolerance, repeats), found) > kCopiedMeansChance) continue;
+    return fmt::format(
+        "{:.0f} of the {:.0f} values of the reference{} are the means of the candidate's own measurements: were they "
+        "copied?",
+        found, count, show_on_machine(file.reference_machine));
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> doubt_near_line(const LineFit& fit, const RepeatScatter& repeats) {
+  const double repeat_sd = std::hypot(repeats.reference_sd, fit.slope * repeats.candidate_sd);
+  const double p = calc_too_near_p(fit, repeat_sd, repeats.degrees_of_freedom);
+  if (p >= kTooNearLevel) return std::nullopt;
+  return fmt::format(
+      "the tires lie within {:.5f} N/kN of the line, much nearer than the {:.3f} N/kN that the repeats let expect (p = "
+      "{:.1g}): were the values of one machine computed from those of the other?",
+      fit.residual_sd, repeat_sd, p);
 }
 
 /// Doubts of each class of the file, by the mean of its tires.
@@ -178,33 +262,38 @@ std::vector<std::string> list_class_doubts(const AlignmentFile& file) {
 std::vector<std::string> list_value_doubts(const AlignmentFile& file) {
   std::vector<std::string> doubts;
   for (const auto& doubt :
-       {doubt_copied_machine(file), doubt_copied_rounds(file, &AlignmentTire::candidate, file.machine),
+       {doubt_equal_values(file, &AlignmentTire::candidate, file.machine, find_candidate_step(file)),
+        doubt_equal_values(file, &AlignmentTire::reference, file.reference_machine, find_reference_step(file)),
+        doubt_copied_machine(file), doubt_copied_rounds(file, &AlignmentTire::candidate, file.machine),
         doubt_copied_rounds(file, &AlignmentTire::reference, file.reference_machine)}) {
     if (doubt.has_value()) doubts.push_back(*doubt);
+  }
+  for (const std::string& doubt : doubt_copied_tires(file, &AlignmentTire::candidate, file.machine)) {
+    doubts.push_back(doubt);
+  }
+  for (const std::string& doubt : doubt_copied_tires(file, &AlignmentTire::reference, file.reference_machine)) {
+    doubts.push_back(doubt);
   }
   for (const std::string& doubt : list_class_doubts(file)) doubts.push_back(doubt);
   return doubts;
 }
 
-std::vector<std::string> list_date_doubts(const AlignmentFile& file, const std::string& today) {
-  std::size_t late = 0;
-  double last_s = 0.0;
-  const auto look_at = [&](const std::vector<AlignmentMeasurement>& all) {
-    for (const AlignmentMeasurement& one : all) {
-      if (format_day(one.time_s - measurements::kDay_s) <= today) continue;
-      ++late;
-      last_s = std::max(last_s, one.time_s);
-    }
-  };
-  for (const AlignmentTire& tire : file.tires) {
-    look_at(tire.candidate.all);
-    look_at(tire.reference.all);
+std::vector<std::string> list_line_doubts(const AlignmentFile& file, const LineFit& fit, const RepeatScatter& repeats) {
+  std::vector<std::string> doubts;
+  for (const auto& doubt : {doubt_near_line(fit, repeats), doubt_copied_means(file, repeats)}) {
+    if (doubt.has_value()) doubts.push_back(*doubt);
   }
-  for (const ControlTire& control : file.controls) look_at(control.measurements);
-  if (late == 0) return {};
-  return {fmt::format("{} dated after today, {}, the last on {}: is the year right?",
-                      late == 1 ? "1 measurement is" : fmt::format("{} measurements are", late), today,
-                      format_day(last_s))};
+  return doubts;
+}
+
+std::string describe_equal_values(const std::string& subject, double step_N_per_kN) {
+  if (step_N_per_kN < kCoarseStep_N_per_kN) {
+    return fmt::format("{} are equal: real measurements scatter. Were they copied?", subject);
+  }
+  return fmt::format(
+      "{} are equal: a step of {:g} N/kN is too coarse to show their scatter. State more digits; the uncertainty has the "
+      "rounding, {:.3f} N/kN",
+      subject, step_N_per_kN, calc_rounding_sd(step_N_per_kN));
 }
 
 }  // namespace rollrig::estimation

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <set>
 
+#include "estimation/alignment/line_fit.h"
 #include "measurements/logs/time_stamps.h"
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
@@ -220,10 +221,21 @@ void set_times(AlignmentFile& file) {
     file.first_s = std::min(file.first_s, tire.candidate.all.front().time_s);
     file.last_s = std::max(file.last_s, tire.candidate.all.back().time_s);
   }
-  file.newest_s = file.last_s;
+  file.newest_s = file.complete_s = file.last_s;
+  for (const AlignmentTire& tire : file.tires) {
+    if (!tire.reference.all.empty()) file.complete_s = std::max(file.complete_s, tire.reference.all.back().time_s);
+  }
   for (const ControlTire& control : file.controls) {
     file.newest_s = std::max(file.newest_s, control.measurements.back().time_s);
   }
+}
+
+std::vector<double> list_side_values(const AlignmentFile& file, TireMeasurements AlignmentTire::*side) {
+  std::vector<double> values;
+  for (const AlignmentTire& tire : file.tires) {
+    for (const AlignmentMeasurement& one : (tire.*side).all) values.push_back(one.rrc_N_per_kN);
+  }
+  return values;
 }
 
 boost::gregorian::date to_date(double time_s) {
@@ -244,6 +256,18 @@ std::vector<double> TireMeasurements::used() const {
 double TireMeasurements::mean() const {
   const std::vector<double> values = used();
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double find_candidate_step(const AlignmentFile& file) {
+  return find_value_step(list_side_values(file, &AlignmentTire::candidate));
+}
+
+double find_reference_step(const AlignmentFile& file) {
+  std::vector<double> values = list_side_values(file, &AlignmentTire::reference);
+  if (values.empty()) {
+    for (const AlignmentTire& tire : file.tires) values.push_back(tire.reference_N_per_kN);
+  }
+  return find_value_step(values);
 }
 
 std::string format_day(double time_s) {

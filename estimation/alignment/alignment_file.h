@@ -44,8 +44,14 @@ struct AlignmentFile {
   std::vector<ControlTire> controls;
   double first_s = 0.0, last_s = 0.0;  // of the alignment tires on the candidate machine
   double newest_s = 0.0;               // of all rows of that machine
+  double complete_s = 0.0;             // last measurement that the alignment uses, on either machine
   std::vector<std::string> inputs;     // paths
 };
+
+/// Step to which the values of one side are rounded; of the reference, that of its measurements or, without them, of the
+/// given values. 0 where there is none.
+double find_candidate_step(const AlignmentFile& file);
+double find_reference_step(const AlignmentFile& file);
 
 /// Errors  InputError: as align(), but for the rules of an alignment; too few measurements for a mean and its scatter
 AlignmentFile read_alignment_file(const AlignmentInput& input);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "estimation/alignment/alignment.h"
 #include "sim/core/csv.h"
@@ -31,7 +33,7 @@ Json make_tire_json(const AlignmentTire& tire, const LinePoint& point) {
   return json;
 }
 
-Json make_line_json(const LineFit& fit) {
+Json make_line_json(const LineFit& fit, const AlignmentLine& line) {
   const double k = fit.coverage_factor();
   const auto estimate = [k](double value, double sd) {
     return Json{{"value", value}, {"sd", sd}, {"ci95", {value - k * sd, value + k * sd}}};
@@ -46,6 +48,9 @@ Json make_line_json(const LineFit& fit) {
           {"residual_sd_N_per_kN", fit.residual_sd},
           {"repeat_sd_N_per_kN", fit.repeat_sd},
           {"between_tires_sd_N_per_kN", fit.between_sd},
+          {"candidate_mean_sd_N_per_kN", line.candidate_sd},
+          {"rest_sd_N_per_kN", line.rest_sd},
+          {"rest_degrees_of_freedom", std::isfinite(line.rest_freedom) ? Json(line.rest_freedom) : Json()},
           {"lack_of_fit_p", fit.lack_of_fit_p},
           {"attenuation", fit.attenuation}};
 }
@@ -56,6 +61,7 @@ Json alignment_json(const ControlChart& chart) {
                {"center_N_per_kN", chart.center_N_per_kN},
                {"sd_N_per_kN", chart.sd_N_per_kN},
                {"limits_N_per_kN", {chart.low_N_per_kN, chart.high_N_per_kN}},
+               {"last_measurement", format_day(chart.time_s.back())},
                {"longest_run_on_one_side", chart.longest_run},
                {"largest_gap_days", chart.largest_gap_days}};
   json["outside"] = make_list(chart.outside, [&chart](std::size_t i) {
@@ -126,9 +132,47 @@ AlignmentLine read_line(const Json& document, const std::string& file) {
   line.line_freedom = number("line.line_degrees_of_freedom", 1.0);
   line.between_sd = number("line.between_tires_sd_N_per_kN", 0.0);
   line.between_freedom = line.tires - 2.0;
+  line.candidate_sd = number("line.candidate_mean_sd_N_per_kN", 0.0);
+  line.rest_sd = number("line.rest_sd_N_per_kN", 0.0);
+  line.rest_freedom = find_key(document, "line.rest_degrees_of_freedom", file).is_null()
+                          ? std::numeric_limits<double>::infinity()
+                          : number("line.rest_degrees_of_freedom", 1.0);
   line.sigma_m = number("sigma_m_N_per_kN.value", 0.0);
   line.sigma_m_freedom = number("sigma_m_N_per_kN.degrees_of_freedom", 1.0);
   return line;
+}
+
+/// Refuses a file of which a part was changed by hand: what it states twice has to agree.
+void require_consistent(const Json& document, const StoredAlignment& stored, const std::string& last_measurement,
+                        const std::string& file) {
+  constexpr double kAny = -1e9;
+  const auto require = [&](const char* path, double expected, const char* made_of) {
+    const double found = read_number(document, path, file, kAny);
+    if (std::abs(found - expected) <= 1e-9 * std::max(1.0, std::abs(expected))) return;
+    throw InputError({"keys of the alignment contradict each other: was the file changed by hand?", file, 0, path,
+                      fmt::format("{:.6g}", found), fmt::format("{} = {:.6g}", made_of, expected), ""});
+  };
+  require("aligned.factor", stored.line.calc_factor(), "A1 A2");
+  require("aligned.offset_N_per_kN", stored.line.calc_offset(), "A1 B2 + B1");
+  const std::string expected =
+      format_day(add_years(read_day_s(last_measurement, "last_measurement"), AlignmentRules{}.years_valid));
+  if (stored.valid_until == expected) return;
+  throw InputError({"keys of the alignment contradict each other: was the file changed by hand?", file, 0,
+                    "valid_until", stored.valid_until,
+                    fmt::format("{}, {} years after last_measurement", expected, AlignmentRules{}.years_valid), ""});
+}
+
+/// The earliest of the last measurements of the control tires; empty without control tires.
+std::string find_last_control(const Json& document, const std::string& file) {
+  if (!document.contains("monitoring")) return "";
+  const Json& tires = find_key(document, "monitoring.tires", file);
+  if (!tires.is_array()) throw make_key_error(file, "monitoring.tires", tires, "a list");
+  std::string last;
+  for (const Json& tire : tires) {
+    const std::string day = read_word(tire, "last_measurement", file);
+    if (last.empty() || day < last) last = day;
+  }
+  return last;
 }
 
 }  // namespace
@@ -154,6 +198,7 @@ Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& resul
                                               : "reference machine";
   json["first_measurement"] = format_day(file.first_s);
   json["last_measurement"] = format_day(file.last_s);
+  json["valid_from"] = format_day(std::max(file.last_s, file.complete_s));
   json["valid_until"] = format_day(result.valid_until_s);
   json["judged_on"] = format_day(result.judged_on_s);
   json["valid"] = result.is_valid;
@@ -161,7 +206,7 @@ Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& resul
   json["A1"] = result.line.A1;
   json["B1_N_per_kN"] = result.line.B1;
   json["aligned"] = {{"factor", result.line.calc_factor()}, {"offset_N_per_kN", result.line.calc_offset()}};
-  json["line"] = make_line_json(result.fit);
+  json["line"] = make_line_json(result.fit, result.line);
   json["sigma_m_N_per_kN"] = alignment_json(result.sigma_m);
   if (result.sigma_l.has_value()) json["sigma_of_reference_N_per_kN"] = alignment_json(*result.sigma_l);
   json["measurements_needed"] = result.needed_measurements;
@@ -194,7 +239,9 @@ StoredAlignment read_alignment_json(const std::string& path) {
   StoredAlignment stored;
   stored.line = read_line(document, path);
   stored.machine = read_word(document, "machine", path);
-  stored.last_measurement = read_word(document, "last_measurement", path);
+  stored.classes = read_word(document, "classes", path);
+  stored.valid_from = read_word(document, "valid_from", path);
+  stored.last_control = find_last_control(document, path);
   stored.valid_until = read_word(document, "valid_until", path);
   const Json& valid = find_key(document, "valid", path);
   if (!valid.is_boolean()) throw make_key_error(path, "valid", valid, "true or false");
@@ -205,6 +252,7 @@ StoredAlignment read_alignment_json(const std::string& path) {
   }
   stored.low_N_per_kN = range[0].get<double>();
   stored.high_N_per_kN = range[1].get<double>();
+  require_consistent(document, stored, read_word(document, "last_measurement", path), path);
   return stored;
 }
 

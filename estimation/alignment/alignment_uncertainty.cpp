@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,22 +42,6 @@ void add_inputs(std::vector<UncertainInput> more, std::vector<UncertainInput>& i
   std::move(more.begin(), more.end(), std::back_inserter(inputs));
 }
 
-/// Degrees of freedom of s^2 - A2^2 u_x^2: of the repeats of the reference machine, where s is that of the repeats,
-/// else of a difference of variances.
-/// Equation  nu = (s^2 - a)^2 / (s^4/(p - 2) + a^2/nu_x),  a = A2^2 u_x^2
-/// Source    Satterthwaite's approximation, for a difference
-double find_rest_freedom(const AlignmentResult& result, double x_sd) {
-  const LineFit& fit = result.fit;
-  const double all = fit.sd * fit.sd;
-  const double of_x = std::pow(fit.slope * x_sd, 2);
-  if (fit.residual_sd < fit.repeat_sd) {
-    return result.sigma_l.has_value() ? result.sigma_l->degrees_of_freedom : std::numeric_limits<double>::infinity();
-  }
-  const double p = static_cast<double>(fit.points.size());
-  const double spread = all * all / (p - 2.0) + of_x * of_x / result.sigma_m.degrees_of_freedom;
-  return spread > 0.0 ? std::max(1.0, std::pow(all - of_x, 2) / spread) : std::numeric_limits<double>::infinity();
-}
-
 const std::vector<std::string> kAlignmentLeftOut{
     "A1 and B1: their laboratory has to state them",
     "the reference machine's own deviation, where it is not in A1 and B1",
@@ -69,8 +52,7 @@ const std::vector<std::string> kAlignmentLeftOut{
 MeasurementModel make_alignment_model(const AlignmentResult& result) {
   const LineFit& fit = result.fit;
   const std::size_t p = fit.points.size();
-  const double x_sd = fit.candidate_sd;
-  const double y_sd = std::sqrt(std::max(0.0, fit.sd * fit.sd - std::pow(fit.slope * x_sd, 2)));
+  const double x_sd = result.line.candidate_sd, y_sd = result.line.rest_sd;
   MeasurementModel model;
   model.measurands = {{"A2", "A2"},
                       {"B2", "B2_N_per_kN"},
@@ -81,7 +63,7 @@ MeasurementModel make_alignment_model(const AlignmentResult& result) {
       make_scatter_inputs(p, result.sigma_m.degrees_of_freedom, "candidate machine: means of the tires",
                           "sigma_m of the candidate machine, from the repeats");
   const std::vector<UncertainInput> of_y = make_scatter_inputs(
-      p, find_rest_freedom(result, x_sd), "reference values, scatter about the line",
+      p, result.line.rest_freedom, "reference values, scatter about the line",
       "scatter about the line or, where that is smaller, of the repeats, less that of the candidate machine");
   add_inputs(of_x, model.inputs);
   add_inputs(of_y, model.inputs);
@@ -114,21 +96,27 @@ MeasurementModel make_alignment_model(const AlignmentResult& result) {
 MeasurementModel make_aligned_value_model(const AlignmentLine& line, double rrc_N_per_kN, int measurements) {
   MeasurementModel model;
   model.measurands = {{"aligned RRC", "aligned_N_per_kN"}};
-  model.inputs =
-      make_scatter_inputs(2, line.line_freedom, "A2 and B2", "scatter of the alignment tires about the line");
-  model.inputs.push_back(make_between_input(line, model.inputs));
-  UncertainInput measured = make_measured_input(line, measurements, model.inputs);
-  measured.pool.clear();
-  measured.distribution = Distribution::kStudentT;
-  measured.degrees_freedom = line.sigma_m_freedom;
-  model.inputs.push_back(measured);
+  const std::vector<UncertainInput> of_x =
+      make_scatter_inputs(2, line.sigma_m_freedom, "A2 and B2, by sigma_m of the candidate machine",
+                          "sigma_m of the candidate machine, from the repeats");
+  const std::vector<UncertainInput> of_y =
+      make_scatter_inputs(2, line.rest_freedom, "A2 and B2, by the reference values",
+                          "scatter of the alignment tires about the line, less that of the candidate machine");
+  add_inputs(of_x, model.inputs);
+  add_inputs(of_y, model.inputs);
+  model.inputs.push_back(make_measured_input(line, measurements, of_x));
+  model.inputs.push_back(make_between_input(line, of_y));
   model.left_out = kAlignmentLeftOut;
   model.evaluate = [line, rrc_N_per_kN](const std::vector<double>& inputs) {
-    const std::vector<double> errors = take_scatter(inputs, 0, 2);
-    const double level = line.A2 * line.mean_x + line.B2 + line.line_sd / std::sqrt(line.tires) * errors[0];
-    const double slope = line.A2 + line.line_sd / std::sqrt(line.Sxx) * errors[1];
-    const double between = from_SI(take_scale(inputs, 0, 2) * inputs[3]);
-    const double reference = level + slope * (rrc_N_per_kN + from_SI(inputs[4]) - line.mean_x) + between;
+    const std::vector<double> of_candidate = take_scatter(inputs, 0, 2), of_rest = take_scatter(inputs, 3, 2);
+    const auto combine = [&](std::size_t i) {
+      return line.A2 * line.candidate_sd * of_candidate[i] + line.rest_sd * of_rest[i];
+    };
+    const double level = line.A2 * line.mean_x + line.B2 + combine(0) / std::sqrt(line.tires);
+    const double slope = line.A2 + combine(1) / std::sqrt(line.Sxx);
+    const double measured_error = from_SI(take_scale(inputs, 0, 2) * inputs[6]);
+    const double between = from_SI(take_scale(inputs, 3, 2) * inputs[7]);
+    const double reference = level + slope * (rrc_N_per_kN + measured_error - line.mean_x) + between;
     return std::vector<double>{to_SI(line.A1 * reference + line.B1)};
   };
   return model;

@@ -10,13 +10,15 @@ namespace {
 
 constexpr double kDay = 86400.0;
 constexpr double kYear_s = 365.25 * kDay;
+constexpr double kRounding_N_per_kN = 1e-9;  // of a mean of equal values
 constexpr double kMeanRangeOfTwo = 1.128;  // d2: expected range of two normal values over their standard deviation
 
 std::size_t find_longest_run(const ControlChart& chart) {
   std::size_t longest = 0, run = 0;
   int side_before = 0;
   for (const double value : chart.rrc_N_per_kN) {
-    const int side = value > chart.center_N_per_kN ? 1 : value < chart.center_N_per_kN ? -1 : 0;
+    const double over = value - chart.center_N_per_kN;
+    const int side = over > kRounding_N_per_kN ? 1 : over < -kRounding_N_per_kN ? -1 : 0;
     run = side != 0 && side == side_before ? run + 1 : (side != 0 ? 1 : 0);
     side_before = side;
     longest = std::max(longest, run);
@@ -43,7 +45,8 @@ ControlChart make_chart(const ControlTire& tire) {
   chart.low_N_per_kN = chart.center_N_per_kN - 3.0 * chart.sd_N_per_kN;
   chart.high_N_per_kN = chart.center_N_per_kN + 3.0 * chart.sd_N_per_kN;
   for (std::size_t i = 0; i < count; ++i) {
-    if (std::abs(chart.rrc_N_per_kN[i] - chart.center_N_per_kN) > 3.0 * chart.sd_N_per_kN) chart.outside.push_back(i);
+    const double limit = 3.0 * chart.sd_N_per_kN + kRounding_N_per_kN;
+    if (std::abs(chart.rrc_N_per_kN[i] - chart.center_N_per_kN) > limit) chart.outside.push_back(i);
   }
   chart.longest_run = find_longest_run(chart);
   return chart;

@@ -37,9 +37,14 @@ void judge_points(LineFit& fit) {
     point.studentized = std::numeric_limits<double>::quiet_NaN();
     const double left = squares - point.residual * point.residual / (1.0 - point.leverage);
     // Without a rest of scatter, its ratio is one of rounding errors.
-    if (rest < 1.0 || left <= 1e-20 * (1.0 + squares)) continue;
-    point.studentized = point.residual / std::sqrt(left / rest * (1.0 - point.leverage));
-    const double one = 2.0 * boost::math::cdf(complement(boost::math::students_t(rest), std::abs(point.studentized)));
+    const bool has_rest = rest >= 1.0 && left > 1e-20 * (1.0 + squares);
+    const double of_rest = has_rest ? left / rest : 0.0;
+    const double of_repeats = fit.repeat_freedom > 0.0 ? fit.repeat_sd * fit.repeat_sd : 0.0;
+    if (rest < 1.0 || std::max(of_rest, of_repeats) <= 0.0) continue;
+    point.studentized = point.residual / std::sqrt(std::max(of_rest, of_repeats) * (1.0 - point.leverage));
+    const double freedom = of_rest >= of_repeats ? rest : fit.repeat_freedom;
+    const double one =
+        2.0 * boost::math::cdf(complement(boost::math::students_t(freedom), std::abs(point.studentized)));
     point.p_value = std::min(1.0, p * one);
   }
 }
@@ -62,6 +67,16 @@ void weigh_scatter(LineFit& fit, const RepeatScatter& repeats) {
     const double ratio = std::pow(fit.residual_sd / fit.repeat_sd, 2);
     fit.lack_of_fit_p = boost::math::cdf(complement(boost::math::fisher_f(p - 2.0, fit.repeat_freedom), ratio));
   }
+}
+
+/// Degrees of freedom of the scatter about the line without that of the candidate machine.
+double find_rest_freedom(const LineFit& fit, double of_candidate, double candidate_freedom, double reference_freedom) {
+  if (fit.residual_sd < fit.repeat_sd) return reference_freedom;
+  const double all = fit.sd * fit.sd;
+  const double spread =
+      all * all / (static_cast<double>(fit.points.size()) - 2.0) + of_candidate * of_candidate / candidate_freedom;
+  return spread > 0.0 ? std::max(1.0, std::pow(all - of_candidate, 2) / spread)
+                      : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -90,6 +105,32 @@ ScatterEstimate pool_repeats(const std::vector<std::vector<double>>& groups) {
   return pooled;
 }
 
+double find_value_step(const std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  constexpr int kMostDecimals = 6;
+  for (int decimals = 0; decimals <= kMostDecimals; ++decimals) {
+    const double steps = std::pow(10.0, decimals);
+    const auto is_multiple = [steps](double value) {
+      return std::abs(value * steps - std::round(value * steps)) < 1e-9 * std::max(1.0, std::abs(value * steps));
+    };
+    if (std::all_of(values.begin(), values.end(), is_multiple)) return 1.0 / steps;
+  }
+  return 0.0;
+}
+
+double calc_rounding_sd(double step) { return step / std::sqrt(12.0); }
+
+ScatterEstimate add_rounding(ScatterEstimate scatter, double step) {
+  for (double* sd : {&scatter.sd, &scatter.low_95, &scatter.high_95}) *sd = std::max(*sd, calc_rounding_sd(step));
+  return scatter;
+}
+
+double calc_too_near_p(const LineFit& fit, double repeat_sd, double repeat_freedom) {
+  if (!(repeat_sd > 0.0) || !(repeat_freedom > 0.0)) return 1.0;
+  const double between = static_cast<double>(fit.points.size()) - 2.0;
+  return boost::math::cdf(boost::math::fisher_f(between, repeat_freedom), std::pow(fit.residual_sd / repeat_sd, 2));
+}
+
 double LineFit::slope_sd() const { return sd / std::sqrt(Sxx); }
 
 double LineFit::offset_sd() const {
@@ -113,22 +154,43 @@ LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, con
   return fit;
 }
 
+AlignmentLine make_alignment_line(const LineFit& fit, const ScatterEstimate& sigma_m, double reference_freedom) {
+  AlignmentLine line;
+  line.A2 = fit.slope;
+  line.B2 = fit.offset;
+  line.tires = static_cast<double>(fit.points.size());
+  line.mean_x = fit.mean_x;
+  line.Sxx = fit.Sxx;
+  line.line_sd = fit.sd;
+  line.line_freedom = fit.freedom;
+  line.between_sd = fit.between_sd;
+  line.between_freedom = line.tires - 2.0;
+  line.sigma_m = sigma_m.sd;
+  line.sigma_m_freedom = sigma_m.degrees_of_freedom;
+  line.candidate_sd = fit.candidate_sd;
+  const double of_candidate = std::pow(fit.slope * fit.candidate_sd, 2);
+  line.rest_sd = std::sqrt(std::max(0.0, fit.sd * fit.sd - of_candidate));
+  line.rest_freedom = find_rest_freedom(fit, of_candidate, sigma_m.degrees_of_freedom, reference_freedom);
+  return line;
+}
+
 UncertainValue align_value(const AlignmentLine& line, double x, int measurements) {
   const double from_mean = x - line.mean_x;
   const double scale = std::abs(line.A1);
-  const double of_line = line.line_sd * std::sqrt(1.0 / line.tires + from_mean * from_mean / line.Sxx);
+  const double leverage = 1.0 / line.tires + from_mean * from_mean / line.Sxx;
+  const double of_line = line.line_sd * std::sqrt(leverage);
   const double of_repeats = std::abs(line.A2) * line.sigma_m / std::sqrt(static_cast<double>(measurements));
   UncertainValue aligned;
   aligned.value = line.A1 * (line.A2 * x + line.B2) + line.B1;
   aligned.contributions = {{"A2 and B2", scale * of_line, line.line_freedom},
                            {"tire-to-tire scatter about the line", scale * line.between_sd, line.between_freedom},
                            {"sigma_m of the measured value", scale * of_repeats, line.sigma_m_freedom}};
-  // Line and tires rest on the same residuals, so that they err together.
-  const double of_residuals = scale * scale * (of_line * of_line + line.between_sd * line.between_sd);
-  const double repeat_variance = scale * scale * of_repeats * of_repeats;
-  const double variance = of_residuals + repeat_variance;
-  const double by_freedom =
-      of_residuals * of_residuals / line.line_freedom + repeat_variance * repeat_variance / line.sigma_m_freedom;
+  // What rests on one estimate errs together: sigma_m in line and value, the rest in line and tires.
+  const double of_candidate = std::pow(line.A2 * line.candidate_sd, 2) * leverage + of_repeats * of_repeats;
+  const double of_rest = line.rest_sd * line.rest_sd * leverage + line.between_sd * line.between_sd;
+  const double variance = scale * scale * (of_candidate + of_rest);
+  const double by_freedom = std::pow(scale, 4) * (of_candidate * of_candidate / line.sigma_m_freedom +
+                                                  of_rest * of_rest / line.rest_freedom);
   aligned.sd = std::sqrt(variance);
   aligned.degrees_of_freedom = by_freedom > 0.0 ? variance * variance / by_freedom : 1.0;
   aligned.coverage_factor = calc_two_sided_t(aligned.degrees_of_freedom);

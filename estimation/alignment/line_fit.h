@@ -26,13 +26,28 @@ struct ScatterEstimate {
 /// Checked   tests/estimation/alignment_test.cpp
 ScatterEstimate pool_repeats(const std::vector<std::vector<double>>& groups);
 
+/// The step to which values are rounded: the greatest of 1, 0.1, ... 1e-6 of which all are multiples; 0 where there is
+/// none, and of no values.
+/// Validity  decimal places; a greater step of an instrument, such as 0.05, is not seen
+/// Checked   tests/estimation/alignment_test.cpp
+double find_value_step(const std::vector<double>& values);
+
+/// Standard uncertainty of a value that is rounded to a step: step/sqrt(12).
+/// Source    JCGM 100:2008 (GUM), F.2.2.1. Second-hand
+double calc_rounding_sd(double step);
+
+/// The scatter of one measurement, which is not smaller than its rounding.
+/// Equation  s = max(s, step/sqrt(12)), and its interval likewise
+/// Validity  rounding that is smaller than the scatter is within it, since it scatters as well
+ScatterEstimate add_rounding(ScatterEstimate scatter, double step);
+
 /// One tire of the line.
 struct LinePoint {
   double x = 0.0;            // mean on the candidate machine
   double y = 0.0;            // of the reference machine
   double residual = 0.0;     // y less the line
   double leverage = 0.0;     // share of this point's y in the line's value there
-  double studentized = 0.0;  // residual over its standard deviation without this point; NaN of three points
+  double studentized = 0.0;  // residual over its standard deviation without this point; NaN where none is known
   double p_value = 1.0;      // of a residual so large somewhere among the points, by Bonferroni
 };
 
@@ -48,6 +63,8 @@ struct RepeatScatter {
 /// Equation  slope = Sxy/Sxx; s_r^2 = sum residual^2/(p - 2); s_w^2 = sd_y^2 + slope^2 sd_x^2 of the repeats;
 ///           s = max(s_r, s_w); tau^2 = max(0, s_r^2 - s_w^2), what the tires differ by besides;
 ///           sd(slope) = s/sqrt(Sxx), sd(offset) = s sqrt(1/p + mean_x^2/Sxx);
+///           studentized residual r_i/(s_(i) sqrt(1 - leverage_i)) with s_(i) the larger of the scatter of the other points
+///           about their line and s_w: the scatter of few points may be small by chance;
 ///           attenuation = (p - 3) sd_x^2/Sxx, the share by which errors of x make the slope too small on average: to
 ///           first order Sxx is larger by (p - 1) sd_x^2, and 2 sd_x^2/Sxx comes of how both vary together
 /// Validity  errors of x are small beside the range of x: attenuation far below 1. s is the larger
@@ -80,6 +97,11 @@ struct LineFit {
 };
 LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, const RepeatScatter& repeats);
 
+/// Probability that the points lie so near to the line, or nearer, if they scatter as the repeats say; 1 without
+/// repeats. `repeat_sd` is that of a point about the line.
+/// Equation  P(F <= s_r^2/repeat_sd^2), F of p - 2 and `repeat_freedom` degrees of freedom
+double calc_too_near_p(const LineFit& fit, double repeat_sd, double repeat_freedom);
+
 /// One contribution to the uncertainty of an aligned value.
 struct AlignedContribution {
   std::string name;
@@ -104,17 +126,28 @@ struct AlignmentLine {
   double line_sd = 0.0, line_freedom = 1.0;        // s
   double between_sd = 0.0, between_freedom = 1.0;  // tau
   double sigma_m = 0.0, sigma_m_freedom = 1.0;
+  double candidate_sd = 0.0;  // u_x, of a mean on the candidate machine by sigma_m
+  double rest_sd = 0.0;       // u_y, of s without it
+  double rest_freedom = 1.0;  // of u_y; infinite where it is not estimated
 
   /// y = factor x + offset
   double calc_factor() const { return A1 * A2; }
   double calc_offset() const { return A1 * B2 + B1; }
 };
 
+/// The numbers of a line, with A1 = 1 and B1 = 0.
+///
+/// Equation  u_y^2 = s^2 - A2^2 u_x^2; its degrees of freedom are `reference_freedom` where s is that of the repeats, else
+///           nu = (s^2 - a)^2 / (s^4/(p - 2) + a^2/nu_x), a = A2^2 u_x^2
+/// Source    Satterthwaite's approximation, for a difference
+AlignmentLine make_alignment_line(const LineFit& fit, const ScatterEstimate& sigma_m, double reference_freedom);
+
 /// The aligned value of a tire that was measured so many times on the candidate machine.
 ///
-/// Equation  y = A1 (A2 x + B2) + B1;
-///           u^2 = A1^2 (s^2 (1/p + (x - mean_x)^2/Sxx) + tau^2 + A2^2 sigma_m^2/k)
-///           effective degrees of freedom by Welch and Satterthwaite, line and tires as one contribution
+/// Equation  y = A1 (A2 x + B2) + B1;  h = 1/p + (x - mean_x)^2/Sxx;
+///           u^2 = A1^2 (s^2 h + tau^2 + A2^2 sigma_m^2/k) = A1^2 (A2^2 (u_x^2 h + sigma_m^2/k) + (u_y^2 h + tau^2));
+///           effective degrees of freedom by Welch and Satterthwaite, of these two contributions: sigma_m is in both
+///           terms of the first, the scatter about the line in both of the second
 /// Validity  without the uncertainty of A1 and B1, which their laboratory has to state, and of the reference machine's
 ///           own correctness; 95 % by Student's t with the effective degrees of freedom
 /// Source    JCGM 100:2008 (GUM), 5.1.2 and annex G.4. Second-hand

@@ -66,6 +66,7 @@ struct AlignedValueInput {
   double rrc_N_per_kN = 0.0;  // measured, at 25 degC and for the 2 m drum
   int measurements = 1;       // whose mean it is
   std::string on;             // day on which validity is judged, "2026-03-02"; empty: today
+  std::string tire_class;     // "C3": refused where the alignment is not of this class; empty: not checked
 };
 
 /// An aligned value with its expanded uncertainty (95 %).
@@ -79,7 +80,7 @@ struct AlignedValue : Report {
 /// scatter of `measurements` measurements; that of A1 and B1 is not included.
 /// Validity  the range of the alignment tires, from its last measurement until the day in the file; beyond them a warning says so
 /// Source    EU 2020/740, Annex V, Section 6
-/// Errors    InputError: a wrong file or day, a value that is no RRC in N/kN, fewer than one measurement
+/// Errors    InputError: a wrong file or day, one that was changed by hand, a class that is not that of the alignment, a value that is no RRC in N/kN, fewer than one measurement
 AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOptions& uncertainty = {},
                              const Progress& progress = {});
 

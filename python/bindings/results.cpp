@@ -73,7 +73,8 @@ std::shared_ptr<Report> align_value(const py::object& show, const py::dict& unce
   AlignedValueInput input;
   Keywords keywords(given);
   keywords.read("alignment", input.alignment).read("rrc_N_per_kN", input.rrc_N_per_kN);
-  keywords.read("measurements", input.measurements).read("on", input.on).require_all_read();
+  keywords.read("measurements", input.measurements).read("on", input.on).read("tire_class", input.tire_class);
+  keywords.require_all_read();
   const UncertaintyOptions asked = read_uncertainty(uncertainty);
   return std::make_shared<AlignedValue>(
       call(show, [&](const Progress& progress) { return apply_alignment(input, asked, progress); }));

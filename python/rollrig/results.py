@@ -78,7 +78,7 @@ def align(file: PathLike, *, reference_values: Name = None, machine: str | None 
 
 
 def apply_alignment(alignment: PathLike, rrc_N_per_kN: float, *, measurements: int = 1,
-                    on: str | None = None, uncertainty: bool = False, monte_carlo: int = 0, seed: int = 1,
+                    on: str | None = None, tire_class: str | None = None, uncertainty: bool = False, monte_carlo: int = 0, seed: int = 1,
                     threads: int = 0, progress: Progress = None) -> Report:
     """
     :api apply_alignment
@@ -86,7 +86,8 @@ def apply_alignment(alignment: PathLike, rrc_N_per_kN: float, *, measurements: i
     :members AlignedValueInput
     :members UncertaintyOptions
     """
-    given = {"alignment": alignment, "rrc_N_per_kN": rrc_N_per_kN, "measurements": measurements, "on": on}
+    given = {"alignment": alignment, "rrc_N_per_kN": rrc_N_per_kN, "measurements": measurements, "on": on,
+             "tire_class": tire_class}
     with progress_display(progress) as show:
         return Report(_rollrig.apply_alignment(show, make_uncertainty_options(uncertainty, monte_carlo, seed, threads),
                                                take_given(given, "alignment", "rrc_N_per_kN")))

@@ -303,3 +303,93 @@ TEST_CASE("an alignment and a value on it have a budget and Monte Carlo, which c
   CHECK(longest_line(text.out) <= 80);
   CHECK_THAT(text.out, Contains("Monte Carlo beside the GUM, 300 trials"));
 }
+
+TEST_CASE("an alignment does not hold before the last measurement of either machine", "[fast]") {
+  const TemporaryFolder folder;
+  std::string text = read_file(ROLLRIG_SOURCE_DIR "/assets/examples/alignment.csv");
+  text.erase(text.find("K1,C1"));
+  write_file(folder.file("tires.csv"), text);
+  const std::string fit = "align tires.csv --reference-machine drum_A --reference 1 0 ";
+  const auto run = run_program(fit + "--json a.json", folder.path());
+  CHECK(run.status == 0);
+  CHECK_THAT(flatten(run.out), Contains("valid on 2025-04-04"));
+  CHECK(json::parse(read_file(folder.file("a.json")))["valid_from"] == "2025-04-04");
+  const auto early = run_program(fit + "--on 2025-03-20", folder.path());
+  CHECK(early.status == 2);
+  CHECK_THAT(early.err, Contains("2025-04-04 or later"));
+  const auto applied = run_program("align --apply a.json --rrc 8.1 --on 2025-03-20", folder.path());
+  CHECK(applied.status == 1);
+  CHECK_THAT(flatten(applied.out), Contains("the alignment was measured until 2025-04-04"));
+}
+
+TEST_CASE("control tires that were not measured for long are doubted, also where the alignment is applied", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string fit = "align " + kAlignmentExample + " --reference-machine drum_A --reference 1 0 ";
+  CHECK_THAT(flatten(run_program(fit, folder.path()).out), !Contains("warning"));
+  const auto late = run_program(fit + "--on 2027-02-28 --json a.json", folder.path());
+  CHECK_THAT(flatten(late.out), Contains("control tire 'K1': days between measurements: 384 at most, until 2027-02-28; "
+                                         "expected <= 31"));
+  const auto apply = [&](const std::string& day) {
+    return flatten(run_program("align --apply a.json --rrc 8.1 --on " + day, folder.path()).out);
+  };
+  CHECK_THAT(apply("2026-03-01"), !Contains("control measurements"));
+  CHECK_THAT(apply("2026-06-01"), Contains("control measurements until 2026-02-09, 112 days before 2026-06-01"));
+}
+
+TEST_CASE("a line that changes values by more than machines differ is doubted", "[fast]") {
+  const auto align = [](const std::string& reference) {
+    return flatten(
+        run_program("align " + kAlignmentExample + " --reference-machine drum_A --reference " + reference).out);
+  };
+  CHECK_THAT(align("1.003 -0.05"), !Contains("change RRC by"));
+  CHECK_THAT(align("0.95 0.6"), !Contains("change RRC by"));
+  for (const char* absurd : {"1.003 5", "1.9 -4", "2 0", "0.7 2.5"}) {
+    INFO(absurd);
+    CHECK_THAT(align(absurd), Contains("change RRC by") && Contains("A1 = "));
+  }
+}
+
+TEST_CASE("a value is aligned with the line of its class, and a file that was changed by hand is refused", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string fit = "align " + kAlignmentExample + " --reference-machine drum_A --reference 1.003 -0.05 --quiet ";
+  REQUIRE(run_program(fit + "--json a.json", folder.path()).status == 0);
+  const std::string apply = "align --apply a.json --rrc 7.0 --on 2026-02-20 ";
+  const auto of_none = run_program(apply, folder.path());
+  CHECK_THAT(of_none.out, Contains("classes C1, C2"));
+  CHECK(run_program(apply + "--class C2", folder.path()).status == 0);
+  const auto of_C3 = run_program(apply + "--class C3", folder.path());
+  CHECK(of_C3.status == 2);
+  CHECK_THAT(of_C3.err, Contains("the alignment does not hold for class C3") && Contains("C1, C2"));
+  CHECK(run_program(apply + "--class C4", folder.path()).status == 2);
+  // The least value of the tires, 6.933, as it is shown.
+  CHECK_THAT(flatten(run_program("align --apply a.json --rrc 6.93 --on 2026-02-20", folder.path()).out),
+             !Contains("extrapolated"));
+  const json made = json::parse(read_file(folder.file("a.json")));
+  const auto refuse = [&](json changed, const std::string& key) {
+    write_file(folder.file("b.json"), changed.dump());
+    const auto run = run_program("align --apply b.json --rrc 7.0 --on 2026-02-20", folder.path());
+    CHECK(run.status == 2);
+    CHECK_THAT(run.err, Contains("was the file changed by hand?") && Contains(key));
+  };
+  json changed = made;
+  changed["A1"] = 1.103;
+  refuse(changed, "aligned.factor");
+  changed = made;
+  changed["valid_until"] = "2037-02-28";
+  refuse(changed, "valid_until");
+}
+
+TEST_CASE("an aligned value has one expanded uncertainty in text, JSON and budget", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string fit = "align " + kAlignmentExample + " --reference-machine drum_A --reference 1 0 --uncertainty ";
+  REQUIRE(run_program(fit + "--json a.json", folder.path()).status == 0);
+  const json made = json::parse(read_file(folder.file("a.json")));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double stated = made["aligned_examples"][i]["expanded_of_one_N_per_kN"];
+    CHECK(made["uncertainty"]["budgets"][i + 2]["expanded_uncertainty"].get<double>() == Approx(stated).epsilon(2e-3));
+  }
+  const std::string apply = "align --apply a.json --rrc 8.96 --on 2026-02-20 --uncertainty --json -";
+  const json value = json::parse(run_program(apply, folder.path()).out);
+  const double half = value["coverage_factor"].get<double>() * value["sd_N_per_kN"].get<double>();
+  CHECK(value["uncertainty"]["budgets"][0]["expanded_uncertainty"].get<double>() == Approx(half).epsilon(2e-3));
+}

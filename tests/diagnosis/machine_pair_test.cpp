@@ -73,6 +73,12 @@ TEST_CASE("what is no pair of machines with one tire is refused", "[fast]") {
   other = a;
   other.path = "copy/set.toml";
   check_refused(a, other, "same recording");
+  // A row less, or some changed, is a copy all the same.
+  measurements::MeasuredRun& run = other.runs.front();
+  run.time_s.erase(run.time_s.begin() + 1000);
+  for (auto& [channel, values] : run.columns) values.erase(values.begin() + 1000);
+  for (std::size_t i = 0; i < 100; ++i) run.columns.at("drum_torque_Nm")[i] += 1.0;
+  check_refused(a, other, "same recording");
   other = b;
   other.kind = &rigs::find_machine_kind("flat_belt");
   check_refused(a, other, "different kinds: 'drum' and 'flat_belt'");
@@ -104,6 +110,22 @@ TEST_CASE("a rougher surface of one machine looks like the tire on it, and is na
   const double half = 0.5 * (pair.difference.high_95_N_per_kN - pair.difference.low_95_N_per_kN);
   CHECK(std::abs(turned.difference.value_N_per_kN + pair.difference.value_N_per_kN) < half);
   CHECK(names(turned.causes.front(), "surface_roughness"));
+}
+
+TEST_CASE("a torque in another unit on one machine is doubted, before any cause", "[slow]") {
+  DiagnosisOptions options;
+  options.only = {"torque_gain", "bearing_warmup"};
+  const measurements::MeasurementSet a = make_noisy_set({}, 2, 13, "a");
+  measurements::MeasurementSet b = make_noisy_set({}, 2, 14, "b");
+  CHECK(diagnose_pair(a, b, options).doubt.empty());
+  for (measurements::MeasuredRun& run : b.runs) {
+    for (double& value : run.columns.at("drum_torque_Nm")) value *= 0.737562;
+  }
+  const PairFindings pair = diagnose_pair(a, b, options);
+  CHECK(pair.verdict == PairVerdict::kUnexplained);
+  CHECK(pair.causes.empty());
+  CHECK_THAT(pair.doubt, Catch::StartsWith("B: drum_torque_Nm seems to be in lbf ft and not in Nm"));
+  CHECK_THAT(diagnose_pair(b, a, options).doubt, Catch::StartsWith("A: drum_torque_Nm seems to be in lbf ft"));
 }
 
 TEST_CASE("what the tire does on both machines does not make them differ", "[slow]") {

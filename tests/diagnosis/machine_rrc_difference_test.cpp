@@ -67,6 +67,18 @@ TEST_CASE("a gain error makes the coefficient of its machine larger or smaller b
   }
 }
 
+TEST_CASE("the ratio of two machines that agree is 1, and that of a torque in another unit is of the unit", "[fast]") {
+  const measurements::MeasurementSet exact = make_machine({}, 1, "exact");
+  measurements::MeasurementSet scaled = make_machine({}, 1, "scaled");
+  const PreparedSet alike({exact, scaled});
+  CHECK(read_rrc_ratio(alike, simulate_baseline(alike)) == Approx(1.0).epsilon(1e-6));
+  for (measurements::MeasuredRun& run : scaled.runs) {
+    for (double& value : run.columns.at("drum_torque_Nm")) value *= 0.737562;
+  }
+  const PreparedSet pair({exact, scaled});
+  CHECK(read_rrc_ratio(pair, simulate_baseline(pair)) == Approx(0.737562).epsilon(0.005));
+}
+
 TEST_CASE("without a skim test the offset of the sensor widens the interval, also where the run-up is at skim load",
           "[fast]") {
   const measurements::MeasurementSet exact = make_machine({}, 1, "exact");

@@ -21,20 +21,9 @@ AlignmentResult make_line_result(double candidate_sd, double residual) {
   result.fit = fit_line(x, y, {candidate_sd, reference_sd, 20.0});
   result.sigma_l = ScatterEstimate{reference_sd * std::sqrt(3.0), 10.0, 0.0, 0.0};
   result.sigma_m = {candidate_sd * std::sqrt(3.0), 10.0, 0.0, 0.0};
-  AlignmentLine& line = result.line;
-  line.A1 = 1.04;
-  line.B1 = -0.2;
-  line.A2 = result.fit.slope;
-  line.B2 = result.fit.offset;
-  line.tires = 5.0;
-  line.mean_x = result.fit.mean_x;
-  line.Sxx = result.fit.Sxx;
-  line.line_sd = result.fit.sd;
-  line.line_freedom = result.fit.freedom;
-  line.between_sd = result.fit.between_sd;
-  line.between_freedom = 3.0;
-  line.sigma_m = result.sigma_m.sd;
-  line.sigma_m_freedom = 10.0;
+  result.line = make_alignment_line(result.fit, result.sigma_m, result.sigma_l->degrees_of_freedom);
+  result.line.A1 = 1.04;
+  result.line.B1 = -0.2;
   return result;
 }
 

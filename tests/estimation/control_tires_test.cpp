@@ -78,6 +78,14 @@ TEST_CASE("one measurement that falls out is named by its place, a gap by its da
   CHECK(seen.charts[0].largest_gap_days == Approx(28.0));
 }
 
+TEST_CASE("equal control values are not outside their limits", "[fast]") {
+  std::vector<ControlTire> tires{{"K1", {}}};
+  for (int month = 0; month < 15; ++month) tires[0].measurements.push_back({28.0 * kDay * month, 8.27, true});
+  const ControlMonitoring seen = watch_control_tires(tires);
+  CHECK(seen.charts[0].outside.empty());
+  CHECK(seen.charts[0].longest_run == 0);
+}
+
 TEST_CASE("too few control measurements say nothing of a drift", "[fast]") {
   RandomStream random(5, "few");
   CHECK_FALSE(watch_control_tires({}).drift.has_value());
