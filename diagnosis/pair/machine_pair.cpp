@@ -89,8 +89,8 @@ double find_still_share(const std::vector<double>& force) {
   return rows > 0.0 ? still / rows : 1.0;
 }
 
-/// Whether most rows of the shorter run are, at the same time, rows of the other: rows may have been left out or changed.
-/// Coarse readings are equal by chance, about as often as those of successive rows of one run.
+/// Whether most rows of the shorter run are, at the same time, rows of the other: rows may have been left out or
+/// changed. Coarse readings are equal by chance, about as often as those of successive rows of one run.
 bool is_same_recording(const measurements::MeasuredRun& a, const measurements::MeasuredRun& b, const Quantity& force) {
   constexpr double kMost = 0.5;  // Assumed: of the rows
   if (!a.has(force) || !b.has(force)) return false;
@@ -128,8 +128,9 @@ struct OtherForceUnit {
   double SI = 1.0;
 };
 
-/// Why the force of one machine may be in another unit; empty where it is not likely. Machines that test one tire differ
-/// by less than 20 %, and all of these units by more. Load has such a check in each set by itself (list_wrong_units()).
+/// Why the force of one machine may be in another unit; empty where it is not likely. Machines that test one tire
+/// differ by less than 20 %, and all of these units by more. Load has such a check in each set by itself
+/// (list_wrong_units()).
 /// Source  NIST SP 811 for the units. Assumed: 4 % about a unit's factor, by which machines may differ besides
 std::string doubt_force_unit(const measurements::MeasurementSet& a, double ratio) {
   constexpr double kNear = 0.04;
@@ -144,8 +145,8 @@ std::string doubt_force_unit(const measurements::MeasurementSet& a, double ratio
       const double expected = machine == 0 ? unit.SI : 1.0 / unit.SI;
       if (!(std::abs(std::log(ratio / expected)) <= kNear)) continue;
       return fmt::format(
-          "{}: {} seems to be in {} and not in {}: RRc on B is {:.3f} times that on A, and one {} is {:.4g} {}; no cause "
-          "is named until that is corrected",
+          "{}: {} seems to be in {} and not in {}: RRc on B is {:.3f} times that on A, and one {} is {:.4g} {}; no "
+          "cause is named until that is corrected",
           letter_of_machine(machine), force.header(), unit.name, force.unit_suffix(), ratio, unit.name, unit.SI,
           force.unit_suffix());
     }

@@ -277,8 +277,9 @@ std::optional<std::string> doubt_line(const char* A, const char* B, double slope
   const double most = std::max({std::abs(slope - 1.0), std::abs(calc_change(low)), std::abs(calc_change(high))});
   if (most <= kMostChange) return std::nullopt;
   return fmt::format(
-      "{} = {:.3f} and {} = {:.3f} N/kN change RRC by {:+.0f} % at {:.2f} N/kN and by {:+.0f} % at {:.2f} N/kN; machines "
-      "seldom differ by more than {:.0f} %: are both values corrected to 25 degC and the 2 m drum, and in one unit?",
+      "{} = {:.3f} and {} = {:.3f} N/kN change RRC by {:+.0f} % at {:.2f} N/kN and by {:+.0f} % at {:.2f} N/kN; "
+      "machines seldom differ by more than {:.0f} %: are both values corrected to 25 degC and the 2 m drum, and in one "
+      "unit?",
       A, slope, B, offset, 100.0 * calc_change(low), low, 100.0 * calc_change(high), high, 100.0 * kMostChange);
 }
 

@@ -60,7 +60,7 @@ struct StoredAlignment {
   std::string machine, classes;
   std::string valid_from;   // day of the last measurement that the alignment uses
   std::string valid_until;
-  std::string last_control;  // day of the last measurement of the control tire that was measured longest ago; may be empty
+  std::string last_control;  // day since which a control tire was not measured; empty without control tires
   double low_N_per_kN = 0.0, high_N_per_kN = 0.0;  // range of the tires on the candidate machine
   bool is_valid = false;
 };

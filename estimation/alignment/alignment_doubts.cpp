@@ -291,8 +291,8 @@ std::string describe_equal_values(const std::string& subject, double step_N_per_
     return fmt::format("{} are equal: real measurements scatter. Were they copied?", subject);
   }
   return fmt::format(
-      "{} are equal: a step of {:g} N/kN is too coarse to show their scatter. State more digits; the uncertainty has the "
-      "rounding, {:.3f} N/kN",
+      "{} are equal: a step of {:g} N/kN is too coarse to show their scatter. State more digits; the uncertainty has "
+      "the rounding, {:.3f} N/kN",
       subject, step_N_per_kN, calc_rounding_sd(step_N_per_kN));
 }
 

@@ -9,25 +9,26 @@
 
 namespace rollrig::estimation {
 
-/// A sentence for each doubt of the measured values. All used values of each tire on a machine are equal. Nearly all used values of the candidate stand among those of the
-/// same tire on the reference machine. All tires have the values of an earlier round, or of an earlier day, of the same
-/// machine. A tire has the values of another one on a machine. The mean RRC of the tires of a class is not one of the class, as models::doubt_class_by_mean() says.
-/// Coarse values are equal by chance. A copy is therefore doubted only where chance would hardly make it, as the other
-/// equal values of the tires show.
+/// A sentence for each doubt of the measured values. All used values of each tire on a machine are equal. Nearly all
+/// used values of the candidate stand among those of the same tire on the reference machine. All tires have the values
+/// of an earlier round, or of an earlier day, of the same machine. A tire has the values of another one on a machine.
+/// The mean RRC of the tires of a class is not one of the class, as models::doubt_class_by_mean() says. Coarse values
+/// are equal by chance. A copy is therefore doubted only where chance would hardly make it, as the other equal values
+/// of the tires show.
 /// Checked   tests/estimation/alignment_test.cpp
 std::vector<std::string> list_value_doubts(const AlignmentFile& file);
 
-/// A sentence for each doubt of the line. The tires lie much nearer to it than the repeats let expect: the values of one
-/// machine were computed from the other's. Nearly all values of the reference are the candidate's own means, rounded as
-/// they are.
+/// A sentence for each doubt of the line. The tires lie much nearer to it than the repeats let expect: the values of
+/// one machine were computed from the other's. Nearly all values of the reference are the candidate's own means,
+/// rounded as they are.
 /// `repeats`: scatter of the means without the rounding of the values, which is no scatter.
 /// Checked   tests/estimation/alignment_test.cpp
 std::vector<std::string> list_line_doubts(const AlignmentFile& file, const LineFit& fit, const RepeatScatter& repeats);
 
 /// A sentence for each doubt of the times: on one machine, two measurements of a tire that are nearer than soak and
-/// warm-up of its class (find_iso_test() for the least load index, by which a class has the shortest warm-up), or two of
-/// different tires that are nearer than the warm-up; more than a year between the two machines. A time of 0:00 is that
-/// of a day alone.
+/// warm-up of its class (find_iso_test() for the least load index, by which a class has the shortest warm-up), or two
+/// of different tires that are nearer than the warm-up; more than a year between the two machines. A time of 0:00 is
+/// that of a day alone.
 /// Checked   tests/estimation/alignment_test.cpp
 std::vector<std::string> list_time_doubts(const AlignmentFile& file);
 

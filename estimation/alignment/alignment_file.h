@@ -48,8 +48,8 @@ struct AlignmentFile {
   std::vector<std::string> inputs;     // paths
 };
 
-/// Step to which the values of one side are rounded; of the reference, that of its measurements or, without them, of the
-/// given values. 0 where there is none.
+/// Step to which the values of one side are rounded; of the reference, that of its measurements or, without them, of
+/// the given values. 0 where there is none.
 double find_candidate_step(const AlignmentFile& file);
 double find_reference_step(const AlignmentFile& file);
 

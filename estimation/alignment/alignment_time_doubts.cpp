@@ -15,7 +15,7 @@ namespace rollrig::estimation {
 namespace {
 
 constexpr double kMinute_s = 60.0;
-constexpr double kMostDaysBetween = 365.0;  // Assumed: tires age; from one machine's last measurement to the other's first
+constexpr double kMostDaysBetween = 365.0;  // Assumed: tires age. From one machine's last to the other's first
 
 /// Least times of a test [s].
 struct LeastTestTimes {

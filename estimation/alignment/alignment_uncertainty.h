@@ -22,8 +22,8 @@ MeasurementModel make_alignment_model(const AlignmentResult& result);
 
 /// One aligned value: the mean of `measurements` measurements on the candidate machine.
 /// Equation  RRC = A1 (L + a (x + e - mean_x) + d) + B1
-/// Symbols   L value of the line at mean_x, a its slope, with standard deviations s/sqrt(p) and s/sqrt(Sxx), independent
-///           of each other, s^2 = A2^2 u_x^2 + u_y^2; e, d as above
+/// Symbols   L value of the line at mean_x, a its slope, with standard deviations s/sqrt(p) and s/sqrt(Sxx),
+///           independent of each other, s^2 = A2^2 u_x^2 + u_y^2; e, d as above
 /// Source    the equations of align_value()
 /// Checked   tests/estimation/alignment_uncertainty_test.cpp
 MeasurementModel make_aligned_value_model(const AlignmentLine& line, double rrc_N_per_kN, int measurements);

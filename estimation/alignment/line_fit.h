@@ -63,8 +63,8 @@ struct RepeatScatter {
 /// Equation  slope = Sxy/Sxx; s_r^2 = sum residual^2/(p - 2); s_w^2 = sd_y^2 + slope^2 sd_x^2 of the repeats;
 ///           s = max(s_r, s_w); tau^2 = max(0, s_r^2 - s_w^2), what the tires differ by besides;
 ///           sd(slope) = s/sqrt(Sxx), sd(offset) = s sqrt(1/p + mean_x^2/Sxx);
-///           studentized residual r_i/(s_(i) sqrt(1 - leverage_i)) with s_(i) the larger of the scatter of the other points
-///           about their line and s_w: the scatter of few points may be small by chance;
+///           studentized residual r_i/(s_(i) sqrt(1 - leverage_i)) with s_(i) the larger of the scatter of the other
+///           points about their line and s_w: the scatter of few points may be small by chance;
 ///           attenuation = (p - 3) sd_x^2/Sxx, the share by which errors of x make the slope too small on average: to
 ///           first order Sxx is larger by (p - 1) sd_x^2, and 2 sd_x^2/Sxx comes of how both vary together
 /// Validity  errors of x are small beside the range of x: attenuation far below 1. s is the larger
@@ -137,8 +137,8 @@ struct AlignmentLine {
 
 /// The numbers of a line, with A1 = 1 and B1 = 0.
 ///
-/// Equation  u_y^2 = s^2 - A2^2 u_x^2; its degrees of freedom are `reference_freedom` where s is that of the repeats, else
-///           nu = (s^2 - a)^2 / (s^4/(p - 2) + a^2/nu_x), a = A2^2 u_x^2
+/// Equation  u_y^2 = s^2 - A2^2 u_x^2; its degrees of freedom are `reference_freedom` where s is that of the repeats,
+///           else nu = (s^2 - a)^2 / (s^4/(p - 2) + a^2/nu_x), a = A2^2 u_x^2
 /// Source    Satterthwaite's approximation, for a difference
 AlignmentLine make_alignment_line(const LineFit& fit, const ScatterEstimate& sigma_m, double reference_freedom);
 

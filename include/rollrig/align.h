@@ -78,9 +78,11 @@ struct AlignedValue : Report {
 
 /// RRC_aligned = A1 (A2 RRC_m + B2) + B1. Its uncertainty holds the line, what tires differ by beside it, and the
 /// scatter of `measurements` measurements; that of A1 and B1 is not included.
-/// Validity  the range of the alignment tires, from its last measurement until the day in the file; beyond them a warning says so
+/// Validity  the range of the alignment tires, from its last measurement until the day in the file; beyond them a
+///           warning says so
 /// Source    EU 2020/740, Annex V, Section 6
-/// Errors    InputError: a wrong file or day, one that was changed by hand, a class that is not that of the alignment, a value that is no RRC in N/kN, fewer than one measurement
+/// Errors    InputError: a wrong file or day, one that was changed by hand, a class that is not that of the alignment,
+///           a value that is no RRC in N/kN, fewer than one measurement
 AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOptions& uncertainty = {},
                              const Progress& progress = {});
 

@@ -363,7 +363,8 @@ TEST_CASE("values that are computed from those of the other machine lie too near
   CHECK_FALSE(is_in(align_file(file).warnings, "computed"));
   for (AlignmentTire& tire : file.tires) {
     for (std::size_t i = 0; i < tire.reference.all.size(); ++i) {
-      tire.reference.all[i].rrc_N_per_kN = std::round(100.0 * (0.98 * tire.candidate.all[i].rrc_N_per_kN + 0.1)) / 100.0;
+      const double computed = 0.98 * tire.candidate.all[i].rrc_N_per_kN + 0.1;
+      tire.reference.all[i].rrc_N_per_kN = std::round(100.0 * computed) / 100.0;
     }
     tire.reference_N_per_kN = tire.reference.mean();
   }
@@ -434,8 +435,8 @@ TEST_CASE("repeats without a new test are doubted by their times, days alone are
     }
   };
   set_times(60.0, 0.0);
-  CHECK(is_in(list_time_doubts(file), "15 measurements on machine 'drum_B' follow one of the same tire by less than 180 "
-                                      "min of soak and 30 min of warm-up; the least is 1 min"));
+  CHECK(is_in(list_time_doubts(file), "15 measurements on machine 'drum_B' follow one of the same tire by less than "
+                                      "180 min of soak and 30 min of warm-up; the least is 1 min"));
   CHECK(is_in(list_time_doubts(file), "follow one of another tire by less than the 30 min of a warm-up"));
   set_times(5.0 * 3600.0, 3600.0);  // five tires in turn, an hour each
   CHECK(list_time_doubts(file).empty());
