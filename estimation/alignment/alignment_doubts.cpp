@@ -230,7 +230,25 @@ std::optional<std::string> doubt_copied_means(const AlignmentFile& file, const R
   return std::nullopt;
 }
 
-std::optional<std::string> doubt_near_line(const LineFit& fit, const RepeatScatter& repeats) {
+/// Whether the values of one side scatter by so many steps that means of different tires do not fall on one line by
+/// their rounding alone.
+bool is_fine(const AlignmentFile& file, TireMeasurements AlignmentTire::*side, double mean_sd) {
+  constexpr double kLeastSteps = 2.0;  // Assumed; five tires then lie on one line by rounding in fewer than 1 of 10,000
+  std::vector<double> values;
+  std::size_t fewest = (file.tires.front().*side).used().size();
+  for (const AlignmentTire& tire : file.tires) {
+    for (const AlignmentMeasurement& one : (tire.*side).all) values.push_back(one.rrc_N_per_kN);
+    fewest = std::min(fewest, (tire.*side).used().size());
+  }
+  return values.empty() || mean_sd * std::sqrt(static_cast<double>(fewest)) >= kLeastSteps * find_greatest_step(values);
+}
+
+std::optional<std::string> doubt_near_line(const AlignmentFile& file, const LineFit& fit,
+                                           const RepeatScatter& repeats) {
+  if (!is_fine(file, &AlignmentTire::candidate, repeats.candidate_sd) ||
+      !is_fine(file, &AlignmentTire::reference, repeats.reference_sd)) {
+    return std::nullopt;
+  }
   const double repeat_sd = std::hypot(repeats.reference_sd, fit.slope * repeats.candidate_sd);
   const double p = calc_too_near_p(fit, repeat_sd, repeats.degrees_of_freedom);
   if (p >= kTooNearLevel) return std::nullopt;
@@ -280,7 +298,7 @@ std::vector<std::string> list_value_doubts(const AlignmentFile& file) {
 
 std::vector<std::string> list_line_doubts(const AlignmentFile& file, const LineFit& fit, const RepeatScatter& repeats) {
   std::vector<std::string> doubts;
-  for (const auto& doubt : {doubt_near_line(fit, repeats), doubt_copied_means(file, repeats)}) {
+  for (const auto& doubt : {doubt_near_line(file, fit, repeats), doubt_copied_means(file, repeats)}) {
     if (doubt.has_value()) doubts.push_back(*doubt);
   }
   return doubts;

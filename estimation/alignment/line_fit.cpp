@@ -69,6 +69,22 @@ void weigh_scatter(LineFit& fit, const RepeatScatter& repeats) {
   }
 }
 
+/// The greatest step of 1/shares, with one decimal more each time, of which all values are multiples.
+double find_step(const std::vector<double>& values, const std::vector<double>& shares) {
+  if (values.empty()) return 0.0;
+  constexpr int kMostDecimals = 6;
+  for (int decimals = 0; decimals <= kMostDecimals; ++decimals) {
+    for (const double share : shares) {
+      const double steps = share * std::pow(10.0, decimals);
+      const auto is_multiple = [steps](double value) {
+        return std::abs(value * steps - std::round(value * steps)) < 1e-9 * std::max(1.0, std::abs(value * steps));
+      };
+      if (std::all_of(values.begin(), values.end(), is_multiple)) return 1.0 / steps;
+    }
+  }
+  return 0.0;
+}
+
 /// Degrees of freedom of the scatter about the line without that of the candidate machine.
 double find_rest_freedom(const LineFit& fit, double of_candidate, double candidate_freedom, double reference_freedom) {
   if (fit.residual_sd < fit.repeat_sd) return reference_freedom;
@@ -105,18 +121,9 @@ ScatterEstimate pool_repeats(const std::vector<std::vector<double>>& groups) {
   return pooled;
 }
 
-double find_value_step(const std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  constexpr int kMostDecimals = 6;
-  for (int decimals = 0; decimals <= kMostDecimals; ++decimals) {
-    const double steps = std::pow(10.0, decimals);
-    const auto is_multiple = [steps](double value) {
-      return std::abs(value * steps - std::round(value * steps)) < 1e-9 * std::max(1.0, std::abs(value * steps));
-    };
-    if (std::all_of(values.begin(), values.end(), is_multiple)) return 1.0 / steps;
-  }
-  return 0.0;
-}
+double find_value_step(const std::vector<double>& values) { return find_step(values, {1.0}); }
+
+double find_greatest_step(const std::vector<double>& values) { return find_step(values, {1.0, 2.0, 5.0}); }
 
 double calc_rounding_sd(double step) { return step / std::sqrt(12.0); }
 

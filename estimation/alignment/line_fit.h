@@ -31,6 +31,8 @@ ScatterEstimate pool_repeats(const std::vector<std::vector<double>>& groups);
 /// Validity  decimal places; a greater step of an instrument, such as 0.05, is not seen
 /// Checked   tests/estimation/alignment_test.cpp
 double find_value_step(const std::vector<double>& values);
+/// The same among 1, 0.5, 0.2, 0.1, 0.05, ...: of few values that are multiples of it by chance, it is too great.
+double find_greatest_step(const std::vector<double>& values);
 
 /// Standard uncertainty of a value that is rounded to a step: step/sqrt(12).
 /// Source    JCGM 100:2008 (GUM), F.2.2.1. Second-hand

@@ -329,7 +329,8 @@ TEST_CASE("innocent sets are not accused, fine or coarse", "[fast]") {
   struct Case {
     double step_N_per_kN, sigma_m;
   };
-  for (const Case& each : {Case{0.001, 0.03}, {0.01, 0.03}, {0.01, 0.015}, {0.1, 0.03}, {0.1, 0.015}, {0.1, 0.06}}) {
+  for (const Case& each : {Case{0.001, 0.03}, {0.01, 0.03}, {0.01, 0.015}, {0.05, 0.02}, {0.05, 0.04}, {0.1, 0.03},
+                           {0.1, 0.015}, {0.1, 0.06}}) {
     RandomStream random(31, "innocent");
     int accused = 0, residual = 0;
     constexpr int kTimes = 400;
@@ -410,6 +411,8 @@ TEST_CASE("the step of values is that of their decimals", "[fast]") {
   CHECK(find_value_step({7.0, 8.0}) == Approx(1.0));
   CHECK(find_value_step({7.0 / 3.0}) == 0.0);
   CHECK(find_value_step({}) == 0.0);
+  CHECK(find_value_step({6.95, 7.80, 10.15}) == Approx(0.01));
+  CHECK(find_greatest_step({6.95, 7.80, 10.15}) == Approx(0.05));
 }
 
 TEST_CASE("a tire that has the values of another one is doubted", "[fast]") {
