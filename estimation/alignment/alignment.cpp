@@ -209,7 +209,7 @@ void add_monitoring(const AlignmentFile& file, AlignmentResult& result) {
     } else if (chart.sd_N_per_kN == 0.0) {
       result.warnings.push_back(describe_equal_values(
           fmt::format("the {} values of control tire '{}'", chart.rrc_N_per_kN.size(), chart.tire),
-          find_candidate_step(file)));
+          list_candidate_values(file)));
     }
   }
   for (const ControlChart& chart : result.monitoring.charts) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -24,6 +25,7 @@ constexpr double kCopiedMachineChance = 1e-4;  // that as many are equal without
 constexpr double kCopiedRoundChance = 0.01;    // that any two rounds are equal without a copy
 constexpr double kCopiedMeansChance = 1e-3;    // that as many values are the candidate's means without a copy
 constexpr double kTooNearLevel = 1e-4;         // of significance of tires that are too near to their line
+constexpr double kPairedLevel = 1e-6;          // of significance of values that scatter together
 constexpr double kCoarseStep_N_per_kN = 0.05;  // of values; sigma_m is of this order
 constexpr std::size_t kLeastRoundTires = 3;
 constexpr std::size_t kLeastTireValues = 3;
@@ -164,15 +166,24 @@ std::optional<std::string> doubt_copied_rounds(const AlignmentFile& file, TireMe
   return doubt.has_value() ? doubt : doubt_copied_round(list_rounds_by_day(file, side), machine);
 }
 
+std::vector<double> list_values(const AlignmentFile& file, TireMeasurements AlignmentTire::*side) {
+  std::vector<double> values;
+  for (const AlignmentTire& tire : file.tires) {
+    for (const AlignmentMeasurement& one : (tire.*side).all) values.push_back(one.rrc_N_per_kN);
+  }
+  return values;
+}
+
 std::optional<std::string> doubt_equal_values(const AlignmentFile& file, TireMeasurements AlignmentTire::*side,
-                                              const std::string& machine, double step) {
+                                              const std::string& machine) {
   for (const AlignmentTire& tire : file.tires) {
     const std::vector<double> values = (tire.*side).used();
     if (values.size() < 2) return std::nullopt;
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
     if (*least != *greatest) return std::nullopt;
   }
-  return describe_equal_values(fmt::format("all measurements of each tire{}", show_on_machine(machine)), step);
+  return describe_equal_values(fmt::format("all measurements of each tire{}", show_on_machine(machine)),
+                               list_values(file, side));
 }
 
 std::vector<double> list_in_order(const TireMeasurements& measured) {
@@ -211,6 +222,7 @@ double calc_chance_of_mean(double tolerance, const RepeatScatter& repeats) {
 std::optional<std::string> doubt_copied_means(const AlignmentFile& file, const RepeatScatter& repeats) {
   constexpr double kRounding_N_per_kN = 1e-6;  // of a mean that is written with all its digits
   const double tolerance = 0.5 * find_reference_step(file) + kRounding_N_per_kN;
+  const double of_chance = std::max(tolerance, 0.5 * find_greatest_step(list_values(file, &AlignmentTire::candidate)));
   const double count = static_cast<double>(file.tires.size());
   for (const bool only_used : {true, false}) {
     double found = 0.0;
@@ -221,7 +233,7 @@ std::optional<std::string> doubt_copied_means(const AlignmentFile& file, const R
       found += std::abs(tire.reference_N_per_kN - mean) <= tolerance ? 1.0 : 0.0;
     }
     if (found < kCopiedShare * count) continue;
-    if (calc_binomial_tail(count, calc_chance_of_mean(tolerance, repeats), found) > kCopiedMeansChance) continue;
+    if (calc_binomial_tail(count, calc_chance_of_mean(of_chance, repeats), found) > kCopiedMeansChance) continue;
     return fmt::format(
         "{:.0f} of the {:.0f} values of the reference{} are the means of the candidate's own measurements: were they "
         "copied?",
@@ -234,21 +246,52 @@ std::optional<std::string> doubt_copied_means(const AlignmentFile& file, const R
 /// their rounding alone.
 bool is_fine(const AlignmentFile& file, TireMeasurements AlignmentTire::*side, double mean_sd) {
   constexpr double kLeastSteps = 2.0;  // Assumed; five tires then lie on one line by rounding in fewer than 1 of 10,000
-  std::vector<double> values;
+  const std::vector<double> values = list_values(file, side);
   std::size_t fewest = (file.tires.front().*side).used().size();
-  for (const AlignmentTire& tire : file.tires) {
-    for (const AlignmentMeasurement& one : (tire.*side).all) values.push_back(one.rrc_N_per_kN);
-    fewest = std::min(fewest, (tire.*side).used().size());
-  }
+  for (const AlignmentTire& tire : file.tires) fewest = std::min(fewest, (tire.*side).used().size());
   return values.empty() || mean_sd * std::sqrt(static_cast<double>(fewest)) >= kLeastSteps * find_greatest_step(values);
 }
 
-std::optional<std::string> doubt_near_line(const AlignmentFile& file, const LineFit& fit,
-                                           const RepeatScatter& repeats) {
-  if (!is_fine(file, &AlignmentTire::candidate, repeats.candidate_sd) ||
-      !is_fine(file, &AlignmentTire::reference, repeats.reference_sd)) {
-    return std::nullopt;
+/// How the measurements of both machines scatter together about the means of their tires, paired by their order.
+struct PairedScatter {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  double freedom = -1.0;  // of the correlation
+
+  void add(const std::vector<double>& x, const std::vector<double>& y) {
+    if (x.size() != y.size() || x.size() < 2) return;
+    const double count = static_cast<double>(x.size());
+    const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / count;
+    const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / count;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      xx += (x[i] - mean_x) * (x[i] - mean_x);
+      xy += (x[i] - mean_x) * (y[i] - mean_y);
+      yy += (y[i] - mean_y) * (y[i] - mean_y);
+    }
+    freedom += count - 1.0;
   }
+  double correlation() const { return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : 0.0; }
+  /// Probability of so large a correlation of values that have none.
+  double p_value() const {
+    constexpr double kLeastRest = 1e-12;
+    const double r = correlation();
+    if (freedom < 3.0 || r <= 0.0) return 1.0;
+    const double t = r * std::sqrt(freedom / std::max(kLeastRest, 1.0 - r * r));
+    return boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), t));
+  }
+};
+
+/// Measurements that were made on two machines scatter independently of each other.
+std::optional<std::string> doubt_paired_values(const AlignmentFile& file) {
+  PairedScatter paired;
+  for (const AlignmentTire& tire : file.tires) paired.add(list_in_order(tire.candidate), list_in_order(tire.reference));
+  if (paired.p_value() >= kPairedLevel) return std::nullopt;
+  return fmt::format(
+      "the measurements of the two machines scatter together, each with that of the same place in their order "
+      "(correlation {:.4f}): were the values of one machine computed from those of the other?",
+      paired.correlation());
+}
+
+std::optional<std::string> doubt_near_line(const LineFit& fit, const RepeatScatter& repeats) {
   const double repeat_sd = std::hypot(repeats.reference_sd, fit.slope * repeats.candidate_sd);
   const double p = calc_too_near_p(fit, repeat_sd, repeats.degrees_of_freedom);
   if (p >= kTooNearLevel) return std::nullopt;
@@ -280,8 +323,8 @@ std::vector<std::string> list_class_doubts(const AlignmentFile& file) {
 std::vector<std::string> list_value_doubts(const AlignmentFile& file) {
   std::vector<std::string> doubts;
   for (const auto& doubt :
-       {doubt_equal_values(file, &AlignmentTire::candidate, file.machine, find_candidate_step(file)),
-        doubt_equal_values(file, &AlignmentTire::reference, file.reference_machine, find_reference_step(file)),
+       {doubt_equal_values(file, &AlignmentTire::candidate, file.machine),
+        doubt_equal_values(file, &AlignmentTire::reference, file.reference_machine),
         doubt_copied_machine(file), doubt_copied_rounds(file, &AlignmentTire::candidate, file.machine),
         doubt_copied_rounds(file, &AlignmentTire::reference, file.reference_machine)}) {
     if (doubt.has_value()) doubts.push_back(*doubt);
@@ -298,20 +341,26 @@ std::vector<std::string> list_value_doubts(const AlignmentFile& file) {
 
 std::vector<std::string> list_line_doubts(const AlignmentFile& file, const LineFit& fit, const RepeatScatter& repeats) {
   std::vector<std::string> doubts;
-  for (const auto& doubt : {doubt_near_line(file, fit, repeats), doubt_copied_means(file, repeats)}) {
-    if (doubt.has_value()) doubts.push_back(*doubt);
+  if (is_fine(file, &AlignmentTire::candidate, repeats.candidate_sd) &&
+      is_fine(file, &AlignmentTire::reference, repeats.reference_sd)) {
+    const auto paired = doubt_paired_values(file), near = doubt_near_line(fit, repeats);
+    if (paired.has_value() || near.has_value()) doubts.push_back(paired.has_value() ? *paired : *near);
   }
+  if (const auto doubt = doubt_copied_means(file, repeats); doubt.has_value()) doubts.push_back(*doubt);
   return doubts;
 }
 
-std::string describe_equal_values(const std::string& subject, double step_N_per_kN) {
-  if (step_N_per_kN < kCoarseStep_N_per_kN) {
+std::string describe_equal_values(const std::string& subject, const std::vector<double>& values) {
+  constexpr double kRounding_N_per_kN = 1e-9;
+  const double of_decimals = find_value_step(values);
+  const double step = of_decimals < kCoarseStep_N_per_kN ? find_greatest_step(values) : of_decimals;
+  if (step < kCoarseStep_N_per_kN - kRounding_N_per_kN) {
     return fmt::format("{} are equal: real measurements scatter. Were they copied?", subject);
   }
   return fmt::format(
       "{} are equal: a step of {:g} N/kN is too coarse to show their scatter. State more digits; the uncertainty has "
-      "the rounding, {:.3f} N/kN",
-      subject, step_N_per_kN, calc_rounding_sd(step_N_per_kN));
+      "the rounding of the decimals, {:.3f} N/kN",
+      subject, step, calc_rounding_sd(of_decimals));
 }
 
 }  // namespace rollrig::estimation

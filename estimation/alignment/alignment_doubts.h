@@ -19,7 +19,8 @@ namespace rollrig::estimation {
 std::vector<std::string> list_value_doubts(const AlignmentFile& file);
 
 /// A sentence for each doubt of the line. The tires lie much nearer to it than the repeats let expect: the values of
-/// one machine were computed from the other's. Nearly all values of the reference are the candidate's own means,
+/// one machine were computed from the other's. So they are where the measurements of both machines scatter together,
+/// paired by their order; both only where the values are fine enough. Nearly all values of the reference are the candidate's own means,
 /// rounded as they are.
 /// `repeats`: scatter of the means without the rounding of the values, which is no scatter.
 /// Checked   tests/estimation/alignment_test.cpp
@@ -33,8 +34,8 @@ std::vector<std::string> list_line_doubts(const AlignmentFile& file, const LineF
 std::vector<std::string> list_time_doubts(const AlignmentFile& file);
 
 /// What is to be said where all values of a tire, or of each of several, are equal. A step of at least 0.05 N/kN may be
-/// too coarse to show the scatter. Assumed: this limit, of the order of sigma_m
-std::string describe_equal_values(const std::string& subject, double step_N_per_kN);
+/// too coarse to show the scatter. `values`: of the machine, for the step. Assumed: this limit, of the order of sigma_m
+std::string describe_equal_values(const std::string& subject, const std::vector<double>& values);
 
 /// A sentence where measurements are dated after `today`, "2026-11-29" in UTC. One day more is allowed, because the
 /// clock of a laboratory may be ahead of UTC.

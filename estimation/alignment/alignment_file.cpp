@@ -258,9 +258,11 @@ double TireMeasurements::mean() const {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double find_candidate_step(const AlignmentFile& file) {
-  return find_value_step(list_side_values(file, &AlignmentTire::candidate));
+std::vector<double> list_candidate_values(const AlignmentFile& file) {
+  return list_side_values(file, &AlignmentTire::candidate);
 }
+
+double find_candidate_step(const AlignmentFile& file) { return find_value_step(list_candidate_values(file)); }
 
 double find_reference_step(const AlignmentFile& file) {
   std::vector<double> values = list_side_values(file, &AlignmentTire::reference);

@@ -48,6 +48,8 @@ struct AlignmentFile {
   std::vector<std::string> inputs;     // paths
 };
 
+/// All values of the alignment tires on the candidate machine.
+std::vector<double> list_candidate_values(const AlignmentFile& file);
 /// Step to which the values of one side are rounded; of the reference, that of its measurements or, without them, of
 /// the given values. 0 where there is none.
 double find_candidate_step(const AlignmentFile& file);
