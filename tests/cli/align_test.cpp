@@ -343,7 +343,7 @@ TEST_CASE("a line that changes values by more than machines differ is doubted", 
   };
   CHECK_THAT(align("1.003 -0.05"), !Contains("change RRC by"));
   CHECK_THAT(align("0.95 0.6"), !Contains("change RRC by"));
-  for (const char* absurd : {"1.003 5", "1.9 -4", "2 0", "0.7 2.5"}) {
+  for (const char* absurd : {"1.003 5", "1.9 -4", "2 0", "0.79 2.5"}) {
     INFO(absurd);
     CHECK_THAT(align(absurd), Contains("change RRC by") && Contains("A1 = "));
   }
@@ -369,7 +369,7 @@ TEST_CASE("a value is aligned with the line of its class, and a file that was ch
     write_file(folder.file("b.json"), changed.dump());
     const auto run = run_program("align --apply b.json --rrc 7.0 --on 2026-02-20", folder.path());
     CHECK(run.status == 2);
-    CHECK_THAT(run.err, Contains("was the file changed by hand?") && Contains(key));
+    CHECK_THAT(flatten(run.err), Contains("was the file changed by hand?") && Contains(key));
   };
   json changed = made;
   changed["A1"] = 1.103;
