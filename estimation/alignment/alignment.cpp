@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kSection1 = "EU 2020/740 Annex V, 1(4) and 5";
 constexpr const char* kSection2 = "EU 2020/740 Annex V, 2.2; second-hand";
 constexpr const char* kSection5 = "EU 2020/740 Annex V, 5";
-constexpr const char* kSection3 = "EU 2020/740 Annex V, 3; Assumed: not read";
+constexpr const char* kSection3 = "EU 2020/740 Annex V, 3; second-hand";
 constexpr double kMostBend_N_per_kN = 0.02;  // Assumed: a fifth of the 0.1 N/kN to which a label is rounded
 constexpr double kMostScatter_N_per_kN = 0.1;  // Assumed: of tires about a line; a label is rounded to it
 constexpr double kNoLineLevel = 0.001;         // Assumed: of significance of such scatter

@@ -16,7 +16,7 @@ struct AlignmentRules {
   std::size_t least_tires = 5;   // Section 1(4), Section 5
   std::size_t measurements = 4;  // of a tire, the first of which is not used; Section 5
   int years_valid = 2;           // "at least once every second year"; Section 5
-  double reference_sigma_N_per_kN = 0.05;  // most, of a reference machine. Assumed: Section 3 was not read
+  double reference_sigma_N_per_kN = 0.05;  // most, of a reference machine; Section 3. Second-hand
 };
 
 inline const AlignmentRules kRulesC1C2{"C1, C2", 0.075, 0.043, 3.0};
