@@ -20,8 +20,8 @@ std::vector<std::string> list_value_doubts(const AlignmentFile& file);
 
 /// A sentence for each doubt of the line. The tires lie much nearer to it than the repeats let expect: the values of
 /// one machine were computed from the other's. So they are where the measurements of both machines scatter together,
-/// paired by their order; both only where the values are fine enough. Nearly all values of the reference are the candidate's own means,
-/// rounded as they are.
+/// paired by their order; both only where the values are fine enough. Nearly all values of the reference are the
+/// candidate's own means, rounded as they are.
 /// `repeats`: scatter of the means without the rounding of the values, which is no scatter.
 /// Checked   tests/estimation/alignment_test.cpp
 std::vector<std::string> list_line_doubts(const AlignmentFile& file, const LineFit& fit, const RepeatScatter& repeats);
