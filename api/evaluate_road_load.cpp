@@ -126,6 +126,7 @@ RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedure
   const std::vector<RunName> runs = list_run_names(file.data);
   const std::vector<std::string> doubts = doubt_runs(options, file);
   RoadLoadProcedure procedure = evaluate_checked(file, options, list_dropped(runs, file.data));
+  procedure.is_simulated = file.is_simulated;
   procedure.warnings.insert(procedure.warnings.begin(), doubts.begin(), doubts.end());
   if (file.rows_off > 0) procedure.warnings.push_back(format_count(file.rows_off, "row") + " left out: use = Off");
   if (!file.left_out.problems.empty()) {

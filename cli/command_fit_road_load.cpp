@@ -185,8 +185,7 @@ void require_options_of(bool procedure, const FitRoadLoadOptions& options) {
     }
   };
   if (!procedure) {
-    constexpr const char* kOfProcedures = "--method wltp, j2263, j1263 or torque-meter beside it";
-    refuse(options.corrected_mass_kg.has_value(), "--corrected-mass", kOfProcedures);
+    refuse(options.corrected_mass_kg.has_value(), "--corrected-mass", "--method wltp or torque-meter beside it");
     refuse(options.wheel_radius_m.has_value(), "--wheel-radius", "--method torque-meter beside it");
     refuse(options.yaw_degree.has_value(), "--yaw-degree", "--method j2263 beside it");
     return;

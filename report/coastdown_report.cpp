@@ -113,7 +113,7 @@ TestReport make_road_load_report(const estimation::CoastdownFile& file, const Js
       "Road load A + B v + C v^2 as 40 CFR 1066, subpart D asks for it, by SAE J2263 (not read; as cited by 40 CFR "
       "1066.301). The fields are those that such a test needs; neither text has a form.";
   report.subject = file.path;
-  report.is_simulated = file.vehicle.has_value();
+  report.is_simulated = file.is_simulated;
   for (const Json& warning : result["warnings"]) report.warnings.push_back(warning.get<std::string>());
   ReportForm vehicle;
   add_vehicle_blanks(vehicle);

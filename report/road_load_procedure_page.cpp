@@ -128,7 +128,8 @@ Table make_conditions(const RoadLoadProcedure& procedure) {
                                                        : std::string("pressure of reference (Assumed)")));
     add("factor of f0 and f1; of f2", fmt::format("{:.4f}; {:.4f}", at.rolling_factor(), at.air_factor()));
   }
-  if (at.wind_m_s != 0.0) add("wind that both headings have", fmt::format("{:.2f} m/s", at.wind_m_s));
+  add("wind that both headings have",
+      procedure.wind_m_s.has_value() ? fmt::format("{:.2f} m/s", *procedure.wind_m_s) : std::string("not measured"));
   add("reference", fmt::format("{:.4g} degC, {:.5g} kPa", at.reference_temperature_K - kZeroCelsius_K,
                                1e-3 * at.reference_pressure_Pa));
   for (const estimation::FurtherCoefficient& further : procedure.further) {
@@ -318,7 +319,7 @@ Json make_procedure_json(const RoadLoadProcedure& procedure) {
   if (is_torque(procedure)) json["wheel_radius_m"] = procedure.wheel_radius_m;
   json["ambient_degC"] = at.ambient_K.has_value() ? Json(*at.ambient_K - kZeroCelsius_K) : Json(nullptr);
   json["ambient_pressure_kPa"] = at.ambient_pressure_Pa.has_value() ? Json(1e-3 * *at.ambient_pressure_Pa) : Json();
-  json["wind_m_s"] = at.wind_m_s;
+  json["wind_m_s"] = procedure.wind_m_s.has_value() ? Json(*procedure.wind_m_s) : Json(nullptr);
   json["reference_temperature_degC"] = at.reference_temperature_K - kZeroCelsius_K;
   json["reference_pressure_kPa"] = 1e-3 * at.reference_pressure_Pa;
   json["forces"] = make_list(estimation::shown_speeds_m_s(), [&procedure](double speed_m_s) -> Json {

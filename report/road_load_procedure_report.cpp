@@ -45,7 +45,9 @@ ReportSection make_procedure_test(const ReportValues& values, const RoadLoadProc
   };
   add("Air temperature, mean", "/ambient_degC", ".1f", "Air temperature");
   add("Air pressure, mean", "/ambient_pressure_kPa", ".2f", "Air pressure");
-  form.fields.push_back(values.field("Wind along the road that both headings have", "/wind_m_s", ".2f"));
+  constexpr const char* kWind = "Wind along the road that both headings have";
+  form.fields.push_back(procedure.wind_m_s.has_value() ? values.field(kWind, "/wind_m_s", ".2f")
+                                                       : make_field(kWind, "not measured"));
   form.fields.push_back(values.field("Reference temperature", "/reference_temperature_degC", ".1f"));
   form.fields.push_back(values.field("Reference pressure", "/reference_pressure_kPa", ".2f"));
   return {"Test", {form}};
@@ -82,6 +84,7 @@ TestReport make_procedure_report(const RoadLoadProcedure& procedure, const std::
       "rollrig knows only parts of the standards (docs/road_load_procedures.md), and these parts prescribe no form. "
       "The fields are those that a reader needs to judge and repeat the test.";
   report.subject = fmt::format("{}, {}", source, format_count(procedure.run_names.size(), "run"));
+  report.is_simulated = procedure.is_simulated;
   report.warnings = procedure.warnings;
   ReportSection results{"Results", {make_procedure_results(values)}};
   if (!json["reference_speeds"].empty()) {

@@ -50,9 +50,8 @@ void QuasiStaticVehicle<S>::find_resistance() {
   body_mass_kg_ = total_mass_kg - calc_wheel_inertia_kg();
   if (is_on_road()) {
     given_force_N_ = models::calc_grade_N(S(layout_.mass_kg), now.acting.slope);
-    const S density_kg_per_m3 = layout_.air_density_kg_per_m3 * now.acting.air_density_ratio;
     rolled_off_N_ = given_force_N_ + load_N +
-                    models::calc_drag_N(density_kg_per_m3, S(layout_.drag_area_m2), speed_m_s_, now.acting.wind_m_s);
+                    calc_air_drag_N(layout_, now.acting.air_density_ratio, speed_m_s_, now.acting.wind_m_s);
     return;
   }
   given_force_N_ = load_N;

@@ -68,9 +68,9 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double a
     layout.resistance = scale(set_load, share);
   } else if (vehicle.road_load.has_value()) {
     layout.resistance = scale(*vehicle.road_load, share);
-  } else {
-    layout.drag_area_m2 = share * vehicle.body.drag_area_m2;
+    layout.is_drag_in_resistance = true;
   }
+  if (!is_tied_down(layout.machine)) layout.drag_area_m2 = share * vehicle.body.drag_area_m2;
   return layout;
 }
 

@@ -8,6 +8,7 @@
 
 #include "models/corner.h"
 #include "models/vehicle/powertrain_map.h"
+#include "models/vehicle/vehicle.h"
 #include "rigs/rig_file.h"
 #include "rigs/vehicle_file.h"
 
@@ -34,6 +35,7 @@ struct VehicleLayout {
   double rotating_mass_kg = 0.0;
   double rolling_load_N = 0.0;  // on the simulated wheels: less than the weight where an axle stands still
   double drag_area_m2 = 0.0;
+  bool is_drag_in_resistance = false;  // that of still air: the drag area acts for the wind alone
   double air_density_kg_per_m3 = 0.0;
   double motor_limit_N = 0.0;  // most that the motor brakes
   double regeneration_fade_m_s = 0.0;
@@ -48,6 +50,19 @@ struct VehicleLayout {
   /// Where it is given, the energy of the battery is an integral of its own, over the whole vehicle's power.
   std::optional<models::PowertrainMap> powertrain_map = {};
 };
+
+/// Drag of the air against the vehicle on a road; where the resistance holds that of still air, what the wind adds.
+/// Equation  F = rho/2 CdA u |u|, u = v + w; less rho/2 CdA v |v| where the resistance holds it
+/// Symbols   v speed, w wind along the road, positive against the vehicle [m/s]; CdA drag area [m2]
+/// Checked   tests/rigs/vehicle_fidelities_test.cpp
+template <class S>
+S calc_air_drag_N(const VehicleLayout& layout, const S& air_density_ratio, const S& speed_m_s, const S& wind_m_s) {
+  const S density_kg_per_m3 = layout.air_density_kg_per_m3 * air_density_ratio;
+  const S area_m2(layout.drag_area_m2);
+  const S drag_N = models::calc_drag_N(density_kg_per_m3, area_m2, speed_m_s, wind_m_s);
+  if (!layout.is_drag_in_resistance) return drag_N;
+  return drag_N - models::calc_drag_N(density_kg_per_m3, area_m2, speed_m_s, S(0.0));
+}
 
 /// Names of an axle's wheels from left to right: by its side, of dual tires also outer and inner; a single wheel has
 /// its axle's name. Throws InputError for any other number of wheels.

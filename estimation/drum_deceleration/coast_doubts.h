@@ -21,6 +21,7 @@ struct CoastDoubts {
 /// Compares the runs with each other.
 /// * State: a run whose deceleration is that of the other state, at less than half of the distance from its own.
 /// * Load: different loads at one pressure are different levels.
+/// * Exchanged pressures: two runs that make runs at one pressure repeat four times as well if exchanged.
 /// * Odd runs: find_odd_run() on decelerations in bins of 2 m/s. A lifted run, and a loaded run at a pressure with
 /// three
 ///   runs or more, is compared with the median of the others. Of two runs at a pressure, the odd one is the one that is

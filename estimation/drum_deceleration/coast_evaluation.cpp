@@ -106,14 +106,16 @@ void add_exponent(const Tables& tables, Eigen::Index speed, SpeedPoint& point) {
   double by_shared = 0.0;  // of the slope by what all levels share
   for (std::size_t i = 0; i < net.size(); ++i) by_shared -= law.weights[i] / net[i];
   std::vector<VariancePart> parts = scaled(list_shared_parts(tables, speed), by_shared);
-  const bool has_rest = net.size() > 2;
-  const double freedom = static_cast<double>(net.size()) - 2.0;
-  parts.push_back(has_rest ? VariancePart{law.residual_variance * law.weights_squared, freedom}
-                           : VariancePart{repeat.variance * law.weights_squared, repeat.freedom});
-  point.pressure_exponent = make_interval(law.slope, parts);
-  parts.back() = {repeat.variance * law.weights_squared, repeat.freedom};
+  parts.push_back({repeat.variance * law.weights_squared, repeat.freedom});
   point.exponent_by_repeats = make_interval(law.slope, parts);
-  if (!has_rest) return;
+  point.pressure_exponent = point.exponent_by_repeats;
+  if (net.size() <= 2) return;  // the law has no rest
+  const double freedom = static_cast<double>(net.size()) - 2.0;
+  parts.back() = {law.residual_variance * law.weights_squared, freedom};
+  const Interval by_law = make_interval(law.slope, parts);
+  // Few levels may lie on a line by chance: what the repeats say of the exponent is there in any case.
+  point.is_exponent_by_law = by_law.upper > point.exponent_by_repeats->upper;
+  if (point.is_exponent_by_law) point.pressure_exponent = by_law;
   point.level_scatter = std::sqrt(law.residual_variance);
   if (repeat.freedom > 0.0 && repeat.variance > 0.0) {
     const boost::math::fisher_f_distribution<double> fisher(freedom, repeat.freedom);
@@ -145,6 +147,7 @@ void add_pressure_law(const CoastSet& set, const Tables& tables, Eigen::Index sp
   add_mass_ratio_slope(at_load, speed, part);
   point.pressure_exponent = part.pressure_exponent;
   point.exponent_by_repeats = part.exponent_by_repeats;
+  point.is_exponent_by_law = part.is_exponent_by_law;
   point.exponent_per_mass_ratio = part.exponent_per_mass_ratio;
   point.level_scatter = part.level_scatter;
   point.lack_of_fit_p = part.lack_of_fit_p;

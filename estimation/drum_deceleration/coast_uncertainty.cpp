@@ -137,9 +137,9 @@ MeasurementModel make_coast_model(const CoastSet& set, const DrumCoastdownFit& f
   const LoadedScatter scatter = calc_loaded_scatter(tables.loaded, tables.levels, speed);
   const CoastLevels levels = list_levels(point);
   const std::size_t count = levels.names.size();
-  // One law of pressure only where all levels have one load: a force at another load is another force. Of two
-  // pressures, whose law has no rest, the scatter of the runs counts.
-  const bool has_rest = point.level_scatter.has_value();
+  // One law of pressure only where all levels have one load: a force at another load is another force. Where the levels
+  // about the law say less than the runs at one pressure, or nothing (two pressures), the scatter of the runs counts.
+  const bool has_rest = point.is_exponent_by_law;
   const bool has_exponent = point.pressure_exponent.has_value() &&
                             keep_main_load(tables.levels).pressures_Pa.size() == tables.levels.pressures_Pa.size();
 

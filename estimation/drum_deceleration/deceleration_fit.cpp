@@ -178,6 +178,8 @@ DecelerationFit fit_deceleration(const Coast& coast, double speed_m_s, double ha
   constexpr double kLargestShare = 0.75;  // of the speed: the band stays above standstill
   constexpr int kMostIterations = 60;
   constexpr int kHuberIterations = 6;
+  constexpr int kScaleIterations =
+      20;  // afterwards the scale is held: with few rows it and the weights may go in turns
   DecelerationFit fit;
   const double band_m_s = std::min(half_band_m_s, kLargestShare * speed_m_s);
   const Rows rows = choose_rows(coast, speed_m_s, band_m_s, left_out);
@@ -195,7 +197,7 @@ DecelerationFit fit_deceleration(const Coast& coast, double speed_m_s, double ha
   for (int iteration = 0; iteration < kMostIterations && !converged; ++iteration) {
     solution.evaluate(unknowns, fitted, jacobian);
     const Eigen::VectorXd residual = measured - fitted;
-    fit.scatter_m_s = calc_robust_sd(residual);
+    if (iteration < kScaleIterations) fit.scatter_m_s = calc_robust_sd(residual);
     weights = calc_weights(residual, fit.scatter_m_s, iteration >= kHuberIterations);
     const Eigen::VectorXd root = weights.cwiseSqrt();
     const Eigen::VectorXd change =

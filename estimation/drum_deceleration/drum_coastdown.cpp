@@ -8,6 +8,7 @@
 #include "estimation/drum_deceleration/coast_doubts.h"
 #include "estimation/drum_deceleration/coast_evaluation.h"
 #include "sim/core/error.h"
+#include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -149,50 +150,127 @@ void warn_of_method(const CoastSet& set, const Tables& tables, DrumCoastdownFit&
   }
 }
 
-/// Throws InputError where forces or inertias are those of no tire on a drum, unless a run is in doubt, which may be
-/// why. Doubts those that are unusual.
-void doubt_units(const CoastSet& set, DrumCoastdownFit& fit) {
-  constexpr double kMostMassRatio = 0.5;       // Assumed: wheels have 0.01 to 0.1 of the drum's mass at the surface
-  constexpr double kLeast = 1.5e-3;            // Assumed: of the load; the best tires have 4 N/kN, of bicycles 2
-  constexpr double kMost = 40e-3;              // Assumed: of a cold tire at low pressure
-  constexpr double kMostForce_N = 500.0;       // Assumed: a truck tire has 250 N at most
-  constexpr double kLeastPressure_Pa = 100e3;  // Assumed: of a road tire
-  const auto refuse = [&](const std::string& what, const char* key, const std::string& allowed) {
-    if (fit.doubts.empty()) throw InputError({what, set.path, 0, key, "", allowed, ""});
-    fit.warnings.push_back(what);
+/// What is found to be impossible is an error, unless a run is in doubt, which may be why.
+void refuse_units(const CoastSet& set, const std::string& what, const std::string& key, const std::string& allowed,
+                  DrumCoastdownFit& fit) {
+  if (fit.doubts.empty()) throw InputError({what, set.path, 0, key, "", allowed, ""});
+  fit.warnings.push_back(what);
+}
+
+/// The unit in which a deceleration would be that of a drum; empty for none.
+std::string guess_drum_time_unit(double deceleration_m_s2) {
+  struct TimeUnit {
+    double length_s;
+    const char* name;
   };
+  constexpr double kLeast_m_s2 = 1e-3, kMost_m_s2 = 0.1;  // Assumed: usual of drums alone at 20 to 110 km/h
+  for (const TimeUnit& unit : {TimeUnit{60.0, "min"}, TimeUnit{3600.0, "h"}, TimeUnit{1e-3, "ms"}}) {
+    const double in_s_m_s2 = deceleration_m_s2 / unit.length_s;
+    if (in_s_m_s2 >= kLeast_m_s2 && in_s_m_s2 <= kMost_m_s2)
+      return fmt::format("; they would be usual in {}", unit.name);
+  }
+  return "";
+}
+
+/// Refuses a drum alone that slows down as none does: the times are in another unit.
+void require_drum_deceleration(const CoastSet& set, DrumCoastdownFit& fit) {
+  constexpr double kLeast_m_s2 = 1e-4, kMost_m_s2 = 0.3;  // Assumed: far from those of drums
+  const SpeedPoint& point = fit.points[find_reference_speed(set)];
+  if (!point.drum_alone_m_s2.has_value()) return;
+  const double found_m_s2 = point.drum_alone_m_s2->value;
+  if (found_m_s2 > kLeast_m_s2 && found_m_s2 < kMost_m_s2) return;
+  refuse_units(
+      set,
+      fmt::format("the drum alone slows down by {:.3g} m/s2 at {:.0f} km/h, as no drum does: are the times in s "
+                  "and the speeds in km/h{}?",
+                  found_m_s2, 3.6 * point.speed_m_s, guess_drum_time_unit(found_m_s2)),
+      "time_s", fmt::format("a deceleration of {:g} to {:g} m/s2", kLeast_m_s2, kMost_m_s2), fit);
+}
+
+/// Refuses inertias that no drum and wheel have together, doubts those of an unusual wheel.
+void doubt_inertias(const CoastSet& set, DrumCoastdownFit& fit) {
+  constexpr double kMostMassRatio = 0.5;                        // Assumed: wheels have 0.01 to 0.1 of the drum's mass
+  constexpr double kLeastWheel_kg = 1.5, kMostWheel_kg = 70.0;  // Assumed: from a bicycle's to a truck's, at its radius
   if (fit.mass_ratio > kMostMassRatio) {
-    refuse(
+    refuse_units(
+        set,
         fmt::format("tire and wheel would have {:.3g} times the mass of the drum, both at the surface: are inertias, "
                     "diameter and radius in kg m2 and m?",
                     fit.mass_ratio),
-        "[drum], [wheel]", "a drum that is much heavier than the wheel");
+        "[drum], [wheel]", "a drum that is much heavier than the wheel", fit);
   }
+  if (!set.wheel_inertia_kg_m2.has_value() || !set.wheel_rolling_radius_m.has_value()) return;
+  const double wheel_kg = *set.wheel_inertia_kg_m2 / std::pow(*set.wheel_rolling_radius_m, 2);
+  if (wheel_kg >= kLeastWheel_kg && wheel_kg <= kMostWheel_kg) return;
+  fit.warnings.push_back(fmt::format(
+      "tire and wheel have the inertia of {:.3g} kg at their rolling radius; those of cars have 6 to 20 kg, "
+      "of trucks up to 60 kg: are inertia_kg_m2 and rolling_radius_m of [wheel] right?",
+      wheel_kg));
+}
+
+/// Of one pressure: refuses a force that is that of no tire, doubts an unusual one.
+void doubt_level_force(const CoastSet& set, const PressureLevel& level, DrumCoastdownFit& fit) {
+  constexpr double kLeast = 1.5e-3;      // Assumed: of the load; the best tires have 4 N/kN, of bicycles 2
+  constexpr double kMost = 40e-3;        // Assumed: of a cold tire at low pressure
+  constexpr double kLeastForce_N = 1.0;  // Assumed: a bicycle tire has 2 N
+  constexpr double kLeastUsual_N = 10.0, kMostUsual_N = 150.0;  // Assumed: car tires have 20 to 100 N
+  constexpr double kMostForce_N = 500.0;                        // Assumed: a truck tire has 250 N at most
+  const double force_N = level.force_N->value;
+  const double kPa = 1e-3 * level.pressure_Pa;
+  const bool is_known = level.load_N > 0.0;
+  const bool is_of_tire =
+      is_known ? force_N > kLeast * level.load_N && force_N < kMost * level.load_N : force_N > kLeastForce_N;
+  if (!is_of_tire) {
+    refuse_units(
+        set,
+        fmt::format("the rolling resistance is that of no tire: {:.3g} N{} at {:.0f} kPa. Are inertias, diameter "
+                    "and load in kg m2, m and N, and times in s?",
+                    force_N, is_known ? fmt::format(", {:.3g} N/kN of the load,", 1e3 * force_N / level.load_N) : "",
+                    kPa),
+        is_known ? "load_N" : "[drum] inertia_kg_m2",
+        is_known ? fmt::format("{:g} to {:g} N/kN of the load", 1e3 * kLeast, 1e3 * kMost)
+                 : fmt::format("more than {:g} N", kLeastForce_N),
+        fit);
+  } else if (force_N > kMostForce_N) {
+    fit.warnings.push_back(
+        fmt::format("the rolling resistance at {:.0f} kPa is {:.4g} N, more than that of a truck "
+                    "tire: are the units of inertia and diameter right?",
+                    kPa, force_N));
+  } else if (!is_known && (force_N < kLeastUsual_N || force_N > kMostUsual_N)) {
+    fit.warnings.push_back(fmt::format(
+        "the rolling resistance at {:.0f} kPa is {:.3g} N; car tires have about 20 to 100 N: are inertia and "
+        "diameter of [drum] right (not the radius for the diameter)? load_N would tell",
+        kPa, force_N));
+  }
+}
+
+/// Throws InputError where decelerations, forces or inertias are those of no tire on a drum, unless a run is in doubt.
+/// Doubts those that are unusual.
+void doubt_units(const CoastSet& set, DrumCoastdownFit& fit) {
+  constexpr double kLeastPressure_Pa = 100e3;  // Assumed: of a road tire
+  require_drum_deceleration(set, fit);
+  doubt_inertias(set, fit);
+  const SpeedPoint& point = fit.points[find_reference_speed(set)];
   double highest_Pa = 0.0;
-  for (const PressureLevel& level : fit.points[find_reference_speed(set)].levels) {
+  bool is_load_missing = false;
+  for (const PressureLevel& level : point.levels) {
     highest_Pa = std::max(highest_Pa, level.pressure_Pa);
     if (!level.force_N.has_value()) continue;
-    const double force_N = level.force_N->value;
-    const bool is_known = level.load_N > 0.0;
-    const bool is_of_tire = !is_known || (force_N > kLeast * level.load_N && force_N < kMost * level.load_N);
-    if (force_N <= 0.0 || !is_of_tire) {
-      refuse(
-          fmt::format("the rolling resistance is that of no tire: {:.3g} N{} at {:.0f} kPa. Are inertias, diameter "
-                      "and load in kg m2, m and N?",
-                      force_N, is_known ? fmt::format(", {:.3g} N/kN of the load,", 1e3 * force_N / level.load_N) : "",
-                      1e-3 * level.pressure_Pa),
-          is_known ? "load_N" : "[drum] inertia_kg_m2",
-          fmt::format("{:g} to {:g} N/kN of the load", 1e3 * kLeast, 1e3 * kMost));
-    } else if (force_N > kMostForce_N) {
-      fit.warnings.push_back(
-          fmt::format("the rolling resistance at {:.0f} kPa is {:.4g} N, more than that of a truck "
-                      "tire: are the units of inertia and diameter right?",
-                      1e-3 * level.pressure_Pa, force_N));
-    }
+    is_load_missing = is_load_missing || level.load_N <= 0.0;
+    doubt_level_force(set, level, fit);
+  }
+  if (is_load_missing) {
+    fit.warnings.push_back("no load_N in the runs: whether the force is that of the tire cannot be judged by its load");
   }
   if (highest_Pa > 0.0 && highest_Pa < kLeastPressure_Pa) {
     fit.warnings.push_back(fmt::format(
         "the highest pressure is {:.0f} kPa, which is low for a road tire: is it in psi?", 1e-3 * highest_Pa));
+  }
+  if (point.exponent_by_repeats.has_value() && point.exponent_by_repeats->lower > 0.0) {
+    fit.warnings.push_back(fmt::format(
+        "the exponent of pressure is {:+.3g}: rolling resistance would rise with pressure, which no tire does "
+        "on a hard surface. Are the pressures of the runs exchanged?",
+        point.exponent_by_repeats->value));
   }
 }
 
@@ -200,6 +278,16 @@ void doubt_units(const CoastSet& set, DrumCoastdownFit& fit) {
 std::string explain_no_speed(const CoastSet& set, const DrumCoastdownFit& fit) {
   std::string text = "at none of the speeds asked for do loaded and lifted runs both pass";
   if (!fit.doubts.empty()) return text + ". In doubt: " + fit.doubts.front().text;
+  const auto top_m_s = [](const CoastAnalysis& analysis) {
+    return analysis.coast.smooth_m_s.empty() ? 0.0 : analysis.coast.smooth_m_s.front();
+  };
+  double fastest_m_s = 0.0;
+  for (const CoastAnalysis& analysis : fit.analyses) fastest_m_s = std::max(fastest_m_s, top_m_s(analysis));
+  const double asked_m_s = *std::min_element(set.speeds_m_s.begin(), set.speeds_m_s.end());
+  if (fastest_m_s < asked_m_s && kKmhPerMs * fastest_m_s > asked_m_s) {
+    return text + fmt::format(". The speeds end at {:.1f} km/h: is speed_km_h in m/s? Else: speeds_km_h of [analysis]",
+                              kKmhPerMs * fastest_m_s);
+  }
   for (const CoastAnalysis& analysis : fit.analyses) {
     if (analysis.body != CoastBody::kDrum || analysis.decelerations.empty()) continue;
     const DecelerationFit& at = analysis.decelerations[analysis.decelerations.size() / 2];

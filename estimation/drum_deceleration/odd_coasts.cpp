@@ -219,9 +219,97 @@ bool find_odd_of_pairs(const CoastSet& set, const SortedCoasts& sorted, CoastDou
   return checked.set_aside.size() > before;
 }
 
+/// A loaded run with the logarithm of its net deceleration over the median of all, and the group that it is in.
+struct LeveledRun {
+  std::size_t run = 0;
+  std::size_t group = 0;
+  double log_net = 0.0;
+};
+
+CoastCurve take_off(const CoastCurve& curve, const CoastCurve& base) {
+  CoastCurve net;
+  net.run = curve.run;
+  for (std::size_t bin = 0; bin < curve.value_m_s2.size(); ++bin)
+    net.value_m_s2.push_back(curve.at(bin) - base.at(bin));
+  return net;
+}
+
+std::vector<LeveledRun> list_leveled_runs(const SortedCoasts& sorted) {
+  std::vector<CoastCurve> nets;
+  std::vector<LeveledRun> runs;
+  for (std::size_t group = 0; group < sorted.groups.size(); ++group) {
+    for (const CoastCurve* curve : sorted.groups[group].runs) {
+      nets.push_back(take_off(*curve, sorted.drum_alone));
+      runs.push_back({curve->run, group, 0.0});
+    }
+  }
+  std::vector<const CoastCurve*> all;
+  for (const CoastCurve& net : nets) all.push_back(&net);
+  const CoastCurve middle = calc_median_curve(all);
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].log_net = compare_curves(nets[i], middle).log;
+  return runs;
+}
+
+/// Means of the groups, and the scatter of their runs about them, pooled.
+struct LevelScatter {
+  std::vector<double> means;
+  double sd = 0.0;
+};
+
+LevelScatter calc_level_scatter(const std::vector<LeveledRun>& runs, std::size_t groups) {
+  LevelScatter scatter{std::vector<double>(groups, 0.0), 0.0};
+  std::vector<double> counts(groups, 0.0);
+  for (const LeveledRun& run : runs) counts[run.group] += 1.0;
+  for (const LeveledRun& run : runs) scatter.means[run.group] += run.log_net / counts[run.group];
+  double squares = 0.0;
+  for (const LeveledRun& run : runs) squares += std::pow(run.log_net - scatter.means[run.group], 2);
+  const double freedom = static_cast<double>(runs.size() - groups);
+  scatter.sd = freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0;
+  return scatter;
+}
+
+/// Two runs whose pressures look exchanged: with them the other way round, runs at one pressure repeat each other, and
+/// the loss falls with pressure.
+void find_exchanged_pressures(const CoastSet& set, const std::vector<CoastCurve>& curves, CoastDoubts& checked) {
+  constexpr double kLeastScatter = 0.05;  // Assumed: runs at one pressure repeat within 1 to 2 %
+  constexpr double kBetter = 0.25;        // Assumed
+  const SortedCoasts sorted = sort_coasts(set, curves, checked.set_aside);
+  std::vector<LeveledRun> runs = list_leveled_runs(sorted);
+  if (runs.size() < sorted.groups.size() + 2) return;
+  const double before = calc_level_scatter(runs, sorted.groups.size()).sd;
+  if (!(before > kLeastScatter)) return;
+  double best = kBetter * before;
+  std::optional<std::pair<std::size_t, std::size_t>> exchanged;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const RepeatGroup& a = sorted.groups[runs[i].group];
+      const RepeatGroup& b = sorted.groups[runs[k].group];
+      if (runs[i].group == runs[k].group || !is_same_load(a.load_N, b.load_N)) continue;
+      std::swap(runs[i].group, runs[k].group);
+      const LevelScatter after = calc_level_scatter(runs, sorted.groups.size());
+      std::swap(runs[i].group, runs[k].group);
+      const double rise = after.means[runs[i].group] - after.means[runs[k].group];
+      if (after.sd >= best || rise * (a.pressure_Pa - b.pressure_Pa) > 0.0) continue;
+      best = after.sd;
+      exchanged = {runs[k].run, runs[i].run};
+    }
+  }
+  if (!exchanged.has_value()) return;
+  const CoastRun& first = set.runs[exchanged->first];
+  const CoastRun& second = set.runs[exchanged->second];
+  RunDoubt doubt{DoubtKind::kOdd, {first.id, second.id}, "pressures exchanged", before, ""};
+  doubt.text = fmt::format(
+      "{} ({:.0f} kPa) and {} ({:.0f} kPa) look as if their pressures were exchanged: runs at one pressure differ by "
+      "{:.0f} %, and by {:.1f} % with these two the other way round",
+      first.id, 1e-3 * first.pressure_Pa, second.id, 1e-3 * second.pressure_Pa, 100.0 * before, 100.0 * best);
+  checked.doubts.push_back(doubt);
+  checked.set_aside.insert({exchanged->first, exchanged->second});
+}
+
 }  // namespace
 
 void add_odd_coasts(const CoastSet& set, const std::vector<CoastCurve>& curves, CoastDoubts& checked) {
+  find_exchanged_pressures(set, curves, checked);
   const std::size_t most = checked.set_aside.size() + curves.size() / 3;
   while (checked.set_aside.size() < most) {
     const SortedCoasts sorted = sort_coasts(set, curves, checked.set_aside);

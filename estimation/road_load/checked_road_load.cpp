@@ -9,8 +9,11 @@
 #include <fmt/format.h>
 
 #include "estimation/road_load/bin_labels.h"
+#include "estimation/road_load/coastdown_problem.h"
 #include "estimation/road_load/coastdown_repeats.h"
+#include "estimation/road_load/recorded_wind.h"
 #include "estimation/road_load/road_force_reference.h"
+#include "estimation/road_load/road_load_doubts.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {
@@ -140,6 +143,22 @@ void warn_of_signs(RoadLoadFit& fit) {
   }
 }
 
+/// Wind and slope as recorded against what the headings show.
+void doubt_wind_and_slope(const CoastdownData& data, const RoadLoadFitOptions& options, RoadLoadFit& fit) {
+  std::vector<RunResistance> runs;
+  for (const RoadLoadPoint& point : fit.points) {
+    if (runs.empty() || runs.back().run != point.run) runs.push_back({point.run, {}, {}});
+    runs.back().speed_m_s.push_back(point.speed_m_s);
+    runs.back().force_N.push_back(point.force_N);
+  }
+  const double mass_kg = find_test_mass_kg(options, fit.effective_mass_kg);
+  const double drag = given_drag(options).value_or(fit.as_tested.C_N_s2_per_m2);
+  for (auto& doubts : {doubt_winds(list_winds_by_force(data, runs, drag), "the headings show a wind of", "wind_m_s"),
+                       doubt_slopes(list_slopes_by_force(data, runs, mass_kg, false))}) {
+    fit.warnings.insert(fit.warnings.end(), doubts.begin(), doubts.end());
+  }
+}
+
 }  // namespace
 
 CheckedCoastdowns check_coastdowns(CoastdownData& data, const RoadLoadFitOptions& options) {
@@ -169,6 +188,12 @@ RoadLoadFit fit_checked_road_load(CoastdownFile& file, const RoadLoadFitOptions&
   }
   fit.doubts = checked.doubts;
   warn_of_signs(fit);
+  doubt_wind_and_slope(file.data, options, fit);
+  if (options.mass_kg.has_value()) {
+    for (std::string& doubt : doubt_masses(*options.mass_kg, options.rotating_mass_kg, std::nullopt)) {
+      fit.warnings.push_back(std::move(doubt));
+    }
+  }
   std::vector<std::string> texts;
   for (const RunDoubt& doubt : fit.doubts) texts.push_back(doubt.text);
   fit.warnings.insert(fit.warnings.begin(), texts.begin(), texts.end());

@@ -56,6 +56,7 @@ struct RecordedVehicle {
 struct CoastdownFile {
   CoastdownData data;
   bool is_trace = false;
+  bool is_simulated = false;                 // a manifest of a simulation lies beside it
   std::optional<RecordedVehicle> vehicle;    // of rollrig's own recording with its manifest
   std::size_t rows_off = 0;                  // left out by `use`
   std::vector<std::string> ignored_columns;  // of a bins file

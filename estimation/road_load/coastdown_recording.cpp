@@ -94,6 +94,7 @@ CoastdownFile read_coastdown_recording(const std::string& path, BadRows bad_rows
   RecordedConditions conditions;
   if (fs::exists(manifest_file)) {
     const Json manifest = read_manifest(manifest_file);
+    file.is_simulated = true;
     file.vehicle = find_vehicle(manifest);
     conditions = find_conditions(manifest);
   }

@@ -315,9 +315,9 @@ ReferenceResult evaluate_reference_runs(const std::vector<ReferenceRun>& runs, c
   for (const int speed : result.speeds) {
     const std::size_t count = pairs.values(speed).size();
     if (count >= static_cast<std::size_t>(kFewestPairs)) continue;
-    const std::string of_wind = rejected_runs.empty()
-                                    ? std::string()
-                                    : fmt::format("; rejected for their wind: {}", fmt::join(rejected_runs, ", "));
+    const std::string of_wind = rejected_runs.empty() ? std::string()
+                                                      : fmt::format("; rejected for their wind: {}. Is it in m/s?",
+                                                                    fmt::join(rejected_runs, ", "));
     throw pairing_error(fmt::format("fewer than {} pairs at {:.4g} km/h: {}{}", kFewestPairs,
                                     3.6 * speeds_m_s.at(speed), count, of_wind),
                         "at least three pairs within the limits of the procedure");

@@ -83,24 +83,17 @@ void check_wind_found(const RoadLoadFit& fit, std::vector<RoadLoadCheck>& checks
                          "SAE J1263"));
 }
 
-void check_slope(const CoastdownData& data, const RoadLoadFit& fit, std::vector<RoadLoadCheck>& checks) {
-  const std::vector<double> slopes = gather(data, &CoastdownConditions::slope);
-  std::optional<Found> most, change, from_headings;
-  if (!slopes.empty()) {
-    const auto [low, high] = std::minmax_element(slopes.begin(), slopes.end());
-    const double steepest = std::max(std::abs(*low), std::abs(*high));
-    most = Found{steepest <= kMostSlope, fmt::format("{:.2f} %", 100.0 * steepest)};
-    change = Found{*high - *low <= kMostSlopeChange, fmt::format("within {:.2f} %", 100.0 * (*high - *low))};
-  }
+constexpr const char* kSlopeClause = "SAE J1263 7.4; 40 CFR 1066.310(b)";
+
+std::string limit_slope() { return fmt::format("<= {:.1f} %", 100.0 * kMostSlope); }
+
+void check_slope_found(const RoadLoadFit& fit, std::vector<RoadLoadCheck>& checks) {
+  std::optional<Found> from_headings;
   if (fit.slope.has_value()) {
     from_headings = Found{std::abs(*fit.slope) <= kMostSlope,
                           fmt::format("{:.3f} +- {:.3f} %", 100.0 * *fit.slope, 100.0 * fit.slope_sd)};
   }
-  const std::string limit = fmt::format("<= {:.1f} %", 100.0 * kMostSlope);
-  const char* clause = "SAE J1263 7.4; 40 CFR 1066.310(b)";
-  checks.push_back(check("slope", most, "no column slope", limit, clause));
-  checks.push_back(check("slope, constant", change, "no column slope", "within 0.2 %", "SAE J1263 7.4"));
-  checks.push_back(check("slope from headings", from_headings, "not both headings", limit, clause));
+  checks.push_back(check("slope from headings", from_headings, "not both headings", limit_slope(), kSlopeClause));
 }
 
 void check_ambient(const CoastdownData& data, std::vector<RoadLoadCheck>& checks) {
@@ -141,6 +134,19 @@ void check_precision(const std::vector<PairPrecision>& precisions, std::vector<R
 
 }  // namespace
 
+void check_slopes(const CoastdownData& data, std::vector<RoadLoadCheck>& checks) {
+  const std::vector<double> slopes = gather(data, &CoastdownConditions::slope);
+  std::optional<Found> most, change;
+  if (!slopes.empty()) {
+    const auto [low, high] = std::minmax_element(slopes.begin(), slopes.end());
+    const double steepest = std::max(std::abs(*low), std::abs(*high));
+    most = Found{steepest <= kMostSlope, fmt::format("{:.2f} %", 100.0 * steepest)};
+    change = Found{*high - *low <= kMostSlopeChange, fmt::format("within {:.2f} %", 100.0 * (*high - *low))};
+  }
+  checks.push_back(check("slope", most, "no column slope", limit_slope(), kSlopeClause));
+  checks.push_back(check("slope, constant", change, "no column slope", "within 0.2 %", "SAE J1263 7.4"));
+}
+
 RoadLoadChecks check_road_load(const CoastdownData& data, const RoadLoadFit& fit) {
   RoadLoadChecks result;
   result.drifts = find_session_drifts(data, fit);
@@ -149,7 +155,8 @@ RoadLoadChecks check_road_load(const CoastdownData& data, const RoadLoadFit& fit
   check_precision(result.precisions, result.checks);
   check_wind(data, result.checks);
   check_wind_found(fit, result.checks);
-  check_slope(data, fit, result.checks);
+  check_slopes(data, result.checks);
+  check_slope_found(fit, result.checks);
   check_ambient(data, result.checks);
   return result;
 }

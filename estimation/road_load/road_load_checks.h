@@ -58,6 +58,9 @@ struct RoadLoadChecks {
   std::vector<PairPrecision> precisions;
 };
 
+/// The recorded slope against the limits of SAE J1263.
+void check_slopes(const CoastdownData& data, std::vector<RoadLoadCheck>& checks);
+
 RoadLoadChecks check_road_load(const CoastdownData& data, const RoadLoadFit& fit);
 
 }  // namespace rollrig::estimation

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <boost/math/distributions/students_t.hpp>
 
+#include "estimation/road_load/recorded_wind.h"
 #include "estimation/road_load/road_load_doubts.h"
 #include "sim/core/units.h"
 
@@ -69,6 +70,7 @@ void put_masses(const RoadLoadProcedureOptions& options, RoadLoadProcedure& proc
   procedure.correction.corrected_to_mass_kg = options.corrected_to_mass_kg.value_or(*options.mass_kg);
   procedure.rotating_mass_assumed = !options.rotating_mass_kg.has_value();
   procedure.rotating_mass_kg = options.rotating_mass_kg.value_or((kDefaultEffectiveRatio - 1.0) * *options.mass_kg);
+  procedure.warnings = doubt_masses(*options.mass_kg, options.rotating_mass_kg, options.corrected_to_mass_kg);
   procedure.correction.rolling_fall_per_K = options.rolling_fall_per_K;
   procedure.correction.reference_temperature_K = options.reference_temperature_K;
 }
@@ -121,11 +123,12 @@ std::vector<std::string> check_winds(const CoastdownData& data, const WindLimits
   };
   add("wind, mean of a run", any, mean_m_s, limits.mean_m_s, "no column wind_m_s");
   add("wind, peak", any, peak_m_s, limits.peak_m_s, "no column wind_m_s");
-  add("crosswind, mean of a run", any_across, across_m_s, limits.across_m_s, "no column crosswind_m_s");
+  add("crosswind, mean of a run", any_across, across_m_s, limits.across_m_s,
+      (std::string("no column ") + limits.across_column).c_str());
   return above;
 }
 
-double find_common_wind(const CoastdownData& data) {
+std::optional<double> find_common_wind(const CoastdownData& data) {
   double sums[2] = {0.0, 0.0};
   double counts[2] = {0.0, 0.0};
   for (const CoastdownRun& run : data.runs) {
@@ -133,23 +136,23 @@ double find_common_wind(const CoastdownData& data) {
     sums[run.heading > 0 ? 0 : 1] += calc_mean(run.conditions.wind_m_s);
     counts[run.heading > 0 ? 0 : 1] += 1.0;
   }
-  if (counts[0] == 0.0 || counts[1] == 0.0) return 0.0;
+  if (counts[0] == 0.0 || counts[1] == 0.0) return std::nullopt;
   return std::min(std::abs(sums[0] / counts[0]), std::abs(sums[1] / counts[1]));
 }
 
-void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options, double default_pressure_Pa,
+void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options, const AirRule& rule,
                     RoadLoadProcedure& procedure) {
   constexpr double kColdest_K = kZeroCelsius_K + 5.0;
   constexpr double kHottest_K = kZeroCelsius_K + 35.0;
   constexpr double kMostChange_K = 5.0;
   ReferenceCorrection& correction = procedure.correction;
-  correction.reference_pressure_Pa = options.reference_pressure_Pa.value_or(default_pressure_Pa);
+  correction.reference_pressure_Pa = options.reference_pressure_Pa.value_or(rule.reference_pressure_Pa);
   correction.ambient_K = mean_of_condition(data, &CoastdownConditions::ambient_K);
   correction.ambient_pressure_Pa = mean_of_condition(data, &CoastdownConditions::ambient_pressure_Pa);
   if (!correction.ambient_K.has_value()) {
     procedure.warnings.push_back("no column ambient_degC: the coefficients are not corrected for the air");
-    procedure.checks.push_back(
-        {"ambient temperature", CheckStatus::kNotChecked, "no column ambient_degC", "5 to 35 degC", "SAE J1263"});
+    procedure.checks.push_back({"ambient temperature", CheckStatus::kNotChecked, "no column ambient_degC",
+                                "5 to 35 degC", rule.temperature_clause});
     return;
   }
   if (!correction.ambient_pressure_Pa.has_value()) {
@@ -169,8 +172,8 @@ void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& o
   const std::string found =
       fmt::format("{:.1f} to {:.1f} degC", coldest_K - kZeroCelsius_K, hottest_K - kZeroCelsius_K);
   const bool within = coldest_K >= kColdest_K && hottest_K <= kHottest_K;
-  procedure.checks.push_back(
-      {"ambient temperature", within ? CheckStatus::kPass : CheckStatus::kFail, found, "5 to 35 degC", "SAE J1263"});
+  procedure.checks.push_back({"ambient temperature", within ? CheckStatus::kPass : CheckStatus::kFail, found,
+                              "5 to 35 degC", rule.temperature_clause});
   if (hottest_K - coldest_K > kMostChange_K) {
     procedure.warnings.push_back(
         fmt::format("the air was at {}: one correction for all runs is coarse where it changes by more than {:.0f} K",
@@ -255,6 +258,26 @@ void doubt_units(RoadLoadProcedure& procedure) {
   if (load.A_N < 0.0 || load.C_N_s2_per_m2 < 0.0) {
     procedure.warnings.push_back("f0 or f2 is below 0: the data do not fit a vehicle that coasts freely");
   }
+}
+
+void doubt_recorded_conditions(const CoastdownData& data, const std::string& column, bool has_slopes,
+                               RoadLoadProcedure& procedure) {
+  std::vector<RunResistance> runs;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const std::string name = name_of_run(data.runs[i], data);
+    RunResistance of_run{i, {}, {}};
+    for (const ProcedurePoint& point : procedure.points) {
+      if (point.run != name) continue;
+      of_run.speed_m_s.push_back(point.speed_m_s);
+      of_run.force_N.push_back(point.measured);
+    }
+    if (!of_run.speed_m_s.empty()) runs.push_back(std::move(of_run));
+  }
+  const auto add = [&procedure](const std::vector<std::string>& doubts) {
+    procedure.warnings.insert(procedure.warnings.end(), doubts.begin(), doubts.end());
+  };
+  add(doubt_winds(list_winds_by_force(data, runs, procedure.as_tested(2)), "the headings show a wind of", column));
+  if (has_slopes) add(doubt_slopes(list_slopes_by_force(data, runs, procedure.correction.mass_kg, true)));
 }
 
 AirFlow calc_air_flow(double speed_m_s, double against_m_s, double across_m_s) {

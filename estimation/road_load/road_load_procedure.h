@@ -2,6 +2,7 @@
 /// A road load by the procedure of a regulation or a standard: what all of them give.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct FurtherCoefficient {
 
 struct RoadLoadProcedure {
   RoadLoadProcedureKind kind = RoadLoadProcedureKind::kWltp;
+  bool is_simulated = false;                                // the recording is one of a simulation
   Eigen::Vector3d as_tested = Eigen::Vector3d::Zero();      // SI, of a force; of a torque by the torque-meter method
   Eigen::Vector3d corrected = Eigen::Vector3d::Zero();      // the same at reference conditions
   Eigen::Vector3d road_load = Eigen::Vector3d::Zero();      // of the force at reference conditions
@@ -43,6 +45,7 @@ struct RoadLoadProcedure {
   std::vector<SensorContribution> sensors;                  // to road_load
   std::vector<FurtherCoefficient> further;
   ReferenceCorrection correction;
+  std::optional<double> wind_m_s;  // along the road, that both headings have; absent: not measured
   double rotating_mass_kg = 0.0;
   bool rotating_mass_assumed = false;
   double wheel_radius_m = 0.0;  // of the torque-meter method
@@ -75,18 +78,34 @@ struct WindLimits {
   double peak_m_s = 0.0;
   double across_m_s = 0.0;
   const char* clause = "";
+  const char* across_column = "crosswind_m_s";  // whose absence leaves the wind across unknown
 };
 /// Runs whose wind is above the limits, and a check of each limit over all runs.
 std::vector<std::string> check_winds(const CoastdownData& data, const WindLimits& limits,
                                      std::vector<RoadLoadCheck>& checks);
 
-/// The wind that opposite headings do not cancel: the lower of the means of the headings; 0 where there is none.
+/// The wind that opposite headings do not cancel: the lower of the means of the headings; absent where no run of one of
+/// them has a wind.
 /// Source    UN GTR 15 Annex 4, 4.5.3.1 (not from the text)
-double find_common_wind(const CoastdownData& data);
+std::optional<double> find_common_wind(const CoastdownData& data);
+
+/// What a procedure has of the air: its pressure of reference, and where the limits of the temperature stand.
+struct AirRule {
+  double reference_pressure_Pa = 0.0;
+  const char* temperature_clause = "";
+};
+constexpr AirRule kWltpAir{100e3, "UN GTR 15 Annex 4, 4.1.1.2 (not from the text)"};
+constexpr AirRule kSaeAir{98.21e3, "SAE J1263"};  // pressure: 40 CFR 1066.305
 
 /// Weather of the test and the pressure of reference; warns of what is missing.
-void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options, double default_pressure_Pa,
+void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options, const AirRule& rule,
                     RoadLoadProcedure& procedure);
+
+/// Warns where the wind (and the slope) as recorded in `data` contradict what the points of both headings show.
+/// `has_slopes`: the points are without the force of the recorded slope.
+/// `column`: that of the winds.
+void doubt_recorded_conditions(const CoastdownData& data, const std::string& column, bool has_slopes,
+                               RoadLoadProcedure& procedure);
 
 /// Corrects `reference.coefficients` to the conditions of reference, with what `tested` says of force and mass, and
 /// puts both there. The contributions of the sensors are there unless the options leave them out.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <boost/math/constants/constants.hpp>
 
+#include "estimation/road_load/coastdown_repeats.h"
 #include "estimation/road_load/coastdown_rows.h"
 #include "estimation/road_load/coastdown_units.h"
 #include "estimation/road_load/road_load_procedure.h"
@@ -94,6 +95,88 @@ TorqueFile read_torque_file(const std::string& path, BadRows bad_rows) {
     file.runs.runs.push_back(std::move(run));
   }
   return file;
+}
+
+/// Keeps the runs for which `keeps` is true, and their measurements.
+template <class Keeps>
+void keep_torque_runs(const Keeps& keeps, TorqueFile& file) {
+  const std::size_t runs = file.runs.runs.size();
+  std::vector<std::size_t> places(runs, runs);
+  std::vector<CoastdownRun> kept;
+  for (std::size_t i = 0; i < runs; ++i) {
+    if (!keeps(i)) continue;
+    places[i] = kept.size();
+    kept.push_back(file.runs.runs[i]);
+  }
+  std::vector<TorqueMeasurement> measurements;
+  for (TorqueMeasurement& at : file.measurements) {
+    if (places[at.run] == runs) continue;
+    at.run = places[at.run];
+    measurements.push_back(std::move(at));
+  }
+  file.runs.runs = std::move(kept);
+  file.measurements = std::move(measurements);
+}
+
+/// Samples of `second` that are those of a measurement of `first`.
+std::size_t count_shared_samples(const TorqueFile& file, std::size_t first, std::size_t second) {
+  std::size_t shared = 0;
+  for (const TorqueMeasurement& at : file.measurements) {
+    if (at.run != second) continue;
+    const bool is_copy =
+        std::any_of(file.measurements.begin(), file.measurements.end(), [&](const TorqueMeasurement& other) {
+          return other.run == first && other.speed_m_s == at.speed_m_s && other.torque_Nm == at.torque_Nm;
+        });
+    if (is_copy) shared += at.torque_Nm.size();
+  }
+  return shared;
+}
+
+/// Whether a measurement scatters, as no simulation without noise does.
+bool has_noise(const TorqueMeasurement& at) {
+  constexpr double kLeastScatter = 1e-4;  // Assumed: of the torque
+  const std::size_t n = at.torque_Nm.size();
+  double squares = 0.0;
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    squares += std::pow(at.torque_Nm[i - 1] - 2.0 * at.torque_Nm[i] + at.torque_Nm[i + 1], 2);
+  }
+  return n > 2 && std::sqrt(squares / static_cast<double>(n - 2)) > kLeastScatter * std::abs(calc_mean(at.torque_Nm));
+}
+
+/// Whether two runs can differ: the measurements scatter, or runs of one heading are not all alike. Else they are
+/// those of a simulation without noise, and no copies.
+bool can_differ(const TorqueFile& file) {
+  return std::any_of(file.measurements.begin(), file.measurements.end(), [&file](const TorqueMeasurement& at) {
+    return has_noise(at) ||
+           std::any_of(file.measurements.begin(), file.measurements.end(), [&](const TorqueMeasurement& other) {
+             return other.reference_km_h == at.reference_km_h &&
+                    file.runs.runs[other.run].heading == file.runs.runs[at.run].heading &&
+                    other.torque_Nm != at.torque_Nm;
+           });
+  });
+}
+
+/// Takes out runs whose samples are those of another run; warns of them.
+void leave_out_repeated_torques(TorqueFile& file, std::vector<std::string>& warnings) {
+  constexpr double kWhole = 0.9;
+  constexpr std::size_t kFewestSamples = 4;
+  if (!can_differ(file)) return;
+  const std::size_t runs = file.runs.runs.size();
+  std::vector<std::size_t> samples(runs, 0);
+  for (const TorqueMeasurement& at : file.measurements) samples[at.run] += at.torque_Nm.size();
+  std::vector<bool> gone(runs, false);
+  for (std::size_t second = 1; second < runs; ++second) {
+    for (std::size_t first = 0; first < second && !gone[second]; ++first) {
+      const std::size_t shared = count_shared_samples(file, first, second);
+      const bool is_copy =
+          shared >= kFewestSamples && static_cast<double>(shared) >= kWhole * static_cast<double>(samples[second]);
+      if (gone[first] || !is_copy) continue;
+      gone[second] = true;
+      warnings.push_back(fmt::format("{} and {} are the same recording: it is counted once", call_run(file.runs, first),
+                                     call_run(file.runs, second)));
+    }
+  }
+  keep_torque_runs([&gone](std::size_t run) { return !gone[run]; }, file);
 }
 
 /// The dynamic radius, and the speeds of vehicle and wheels at which it was found; 0 where it is given.
@@ -257,26 +340,17 @@ void check_measurements(const TorqueFile& file, const std::vector<MeanTorque>& m
 /// Keeps what the sessions and --leave-out leave.
 void select_torque_runs(const RoadLoadProcedureOptions& options, const std::vector<std::string>& sessions,
                         TorqueFile& file) {
-  std::vector<std::size_t> places(file.runs.runs.size(), file.runs.runs.size());
-  std::vector<CoastdownRun> kept;
-  for (std::size_t i = 0; i < file.runs.runs.size(); ++i) {
-    const CoastdownRun& run = file.runs.runs[i];
-    const bool other = !sessions.empty() && std::find(sessions.begin(), sessions.end(), run.session) == sessions.end();
-    const bool left_out =
-        std::any_of(options.leave_out.begin(), options.leave_out.end(),
-                    [&run](const std::string& name) { return name == run.id || name == run.session + "/" + run.id; });
-    if (other || left_out) continue;
-    places[i] = kept.size();
-    kept.push_back(run);
-  }
-  std::vector<TorqueMeasurement> measurements;
-  for (TorqueMeasurement& at : file.measurements) {
-    if (places[at.run] == file.runs.runs.size()) continue;
-    at.run = places[at.run];
-    measurements.push_back(std::move(at));
-  }
-  file.runs.runs = std::move(kept);
-  file.measurements = std::move(measurements);
+  keep_torque_runs(
+      [&](std::size_t at) {
+        const CoastdownRun& run = file.runs.runs[at];
+        const bool left_out = std::any_of(
+            options.leave_out.begin(), options.leave_out.end(),
+            [&run](const std::string& name) { return name == run.id || name == run.session + "/" + run.id; });
+        const bool is_of_session =
+            sessions.empty() || std::find(sessions.begin(), sessions.end(), run.session) != sessions.end();
+        return is_of_session && !left_out;
+      },
+      file);
   if (!file.measurements.empty()) return;
   throw InputError({"all runs are left out", "command line", 0, sessions.empty() ? "--leave-out" : "--session", "",
                     "a session of the file, and runs that stay", ""});
@@ -286,16 +360,17 @@ void select_torque_runs(const RoadLoadProcedureOptions& options, const std::vect
 
 RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadProcedureOptions& options,
                                         const std::vector<std::string>& sessions, BadRows bad_rows) {
-  constexpr double kReferencePressure_Pa = 100e3;
   RoadLoadProcedure procedure;
   procedure.kind = RoadLoadProcedureKind::kTorqueMeter;
   put_masses(options, procedure);
   TorqueFile file = read_torque_file(path, bad_rows);
   select_torque_runs(options, sessions, file);
-  put_conditions(file.runs, options, kReferencePressure_Pa, procedure);
+  leave_out_repeated_torques(file, procedure.warnings);
+  put_conditions(file.runs, options, kWltpAir, procedure);
   const std::vector<std::string> windy =
       check_winds(file.runs, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, procedure.checks);
-  procedure.correction.wind_m_s = find_common_wind(file.runs);
+  procedure.wind_m_s = find_common_wind(file.runs);
+  procedure.correction.wind_m_s = procedure.wind_m_s.value_or(0.0);
   require_reference_speeds(path, file);
   const DynamicRadius radius = find_wheel_radius(path, file, options, procedure.warnings);
   procedure.wheel_radius_m = radius.radius_m;
@@ -336,6 +411,7 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   for (const MeanTorque& mean : means) tested.most_torque_Nm = std::max(tested.most_torque_Nm, mean.torque_Nm);
   finish_procedure(options, procedure);
   put_fitted(procedure);
+  doubt_recorded_conditions(file.runs, "wind_m_s", false, procedure);
   doubt_units(procedure);
   return procedure;
 }

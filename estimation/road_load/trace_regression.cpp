@@ -8,6 +8,7 @@
 
 #include "estimation/road_load/coastdown_points.h"
 #include "estimation/road_load/coastdown_units.h"
+#include "estimation/road_load/recorded_wind.h"
 #include "estimation/road_load/road_load_procedure.h"
 #include "estimation/road_load/variance_components.h"
 #include "estimation/run_checks/robust_statistics.h"
@@ -281,10 +282,89 @@ CoastdownData find_winds(const CoastdownData& data, const std::vector<TraceRun>&
         across += share * sample.air.speed_m_s * std::sin(sample.air.yaw_rad);
       }
       at.wind_m_s.push_back(along);
-      at.crosswind_m_s.push_back(across);
+      if (!at.yaw_rad.empty()) at.crosswind_m_s.push_back(across);
     }
   }
   return winds;
+}
+
+/// Whether every run says from where the air comes.
+bool has_yaw(const CoastdownData& data, bool on_board) {
+  return std::all_of(data.runs.begin(), data.runs.end(), [on_board](const CoastdownRun& run) {
+    return !(on_board ? run.conditions.yaw_rad : run.conditions.crosswind_m_s).empty();
+  });
+}
+
+/// Warns where the anemometers at the vehicle and beside the road contradict each other; whether they do.
+bool do_anemometers_contradict(const CoastdownData& beside, const CoastdownData& on_board,
+                         std::vector<std::string>& warnings) {
+  bool contradict = false;
+  struct Component {
+    std::vector<double> CoastdownConditions::*values;
+    const char* shown_by;
+    const char* column;
+  };
+  for (const auto& [values, shown_by, column] :
+       {Component{&CoastdownConditions::wind_m_s, "the anemometer at the vehicle shows a wind along the road of",
+                  "wind_m_s"},
+        Component{&CoastdownConditions::crosswind_m_s, "the anemometer at the vehicle shows a wind across the road of",
+                  "crosswind_m_s"}}) {
+    std::vector<RecordedAndShown> runs;
+    for (std::size_t i = 0; i < beside.runs.size(); ++i) {
+      const std::vector<double>& recorded = beside.runs[i].conditions.*values;
+      const std::vector<double>& shown = on_board.runs[i].conditions.*values;
+      if (recorded.empty() || shown.empty()) continue;
+      runs.push_back({beside.runs[i].heading, beside.runs[i].session, calc_mean(recorded), calc_mean(shown)});
+    }
+    for (std::string& doubt : doubt_winds(runs, shown_by, column)) {
+      warnings.push_back(std::move(doubt));
+      contradict = true;
+    }
+  }
+  return contradict;
+}
+
+/// Warns of a vane that is off: what both headings have of yaw, which a wind across the road has with opposite signs.
+void doubt_vane(const CoastdownData& data, const std::vector<TraceRun>& traces, std::vector<std::string>& warnings) {
+  constexpr double kLeastOffset_rad = 2.0 * 0.017453292519943295;  // Assumed: a vane is mounted within 1 deg
+  std::vector<RecordedAndShown> runs;
+  for (const TraceRun& trace : traces) {
+    double across = 0.0, whole = 0.0;
+    for (const TraceSample& sample : trace.samples) {
+      across += sample.air.speed_m_s * std::sin(sample.air.yaw_rad);
+      whole += sample.air.speed_m_s;
+    }
+    runs.push_back({trace.heading, data.runs[trace.index].session, 0.0, across / whole});
+  }
+  const std::optional<double> offset_rad = find_contradiction(runs, kLeastOffset_rad);
+  if (!offset_rad.has_value()) return;
+  warnings.push_back(fmt::format(
+      "yaw_deg is {:+.1f} deg on average of both headings, where a wind across the road has opposite signs: "
+      "is the vane mounted at an angle, or has yaw_deg no sign?",
+      *offset_rad / 0.017453292519943295));
+}
+
+/// Warns of yaw angles that are far below what the wind along the road lets expect: rad in place of deg.
+void doubt_yaw_unit(const CoastdownData& winds, const std::vector<TraceRun>& traces,
+                    std::vector<std::string>& warnings) {
+  constexpr double kRadian_deg = 57.29577951308232;
+  constexpr double kLeastWind_m_s = 0.5;     // Assumed
+  constexpr double kLeastShare = 1.0 / 15.0;  // Assumed: of the wind across in that along; of angles in rad it is 1/57
+  double squares = 0.0, speed = 0.0, n = 0.0;
+  for (const TraceRun& trace : traces) {
+    for (const TraceSample& sample : trace.samples) {
+      squares += sample.air.yaw_rad * sample.air.yaw_rad;
+      speed += sample.speed_m_s;
+      n += 1.0;
+    }
+  }
+  const double yaw_rad = std::sqrt(squares / n);
+  const double wind_m_s = find_common_wind(winds).value_or(0.0);
+  if (yaw_rad == 0.0 || wind_m_s < kLeastWind_m_s || yaw_rad > kLeastShare * wind_m_s * n / speed) return;
+  warnings.push_back(fmt::format(
+      "yaw_deg is {:.2f} deg (root of the mean square) though the wind along the road is {:.1f} m/s: a wind does not keep "
+      "to the road like that. Are the angles in rad?",
+      kRadian_deg * yaw_rad, wind_m_s));
 }
 
 /// Throws InputError where a heading has no run, or none that is long enough.
@@ -339,7 +419,10 @@ std::vector<TraceRun> keep_pairs(const CoastdownData& data, std::vector<TraceRun
   if (kept.size() < 2 * kFewest) {
     throw InputError({fmt::format("fewer than {} pairs of opposite headings{}: {}", kFewest,
                                   kept.size() < 2 * pairs ? " within the limits of the wind" : "", kept.size() / 2),
-                      "", 0, "heading", "", "at least three pairs; the procedures ask for five", ""});
+                      "", 0, "heading", "",
+                      kept.size() < 2 * pairs ? "at least three pairs, with winds in m/s; the procedures ask for five"
+                                              : "at least three pairs; the procedures ask for five",
+                      ""});
   }
   procedure.checks.push_back({"pairs", kept.size() >= 2 * kWanted ? CheckStatus::kPass : CheckStatus::kFail,
                               fmt::format("{}", kept.size() / 2), ">= 5",
@@ -415,40 +498,75 @@ void put_estimate(const LinearEstimate& estimate, const TraceTerms& terms, const
       {"run_to_run_N", "scatter from run to run, N", std::sqrt(estimate.components(kForceOfRun)), 0.0});
 }
 
+/// Runs as traces, cut to the speeds of the options; names of all runs go to the procedure.
+std::vector<TraceRun> cut_traces(const CoastdownData& data, const RoadLoadProcedureOptions& options,
+                                 RoadLoadProcedure& procedure) {
+  std::vector<TraceRun> traces;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    TraceRun trace = cut_trace(data.runs[i], i, options, procedure.correction.reference_pressure_Pa);
+    if (trace.stretch > 0 && trace.samples.size() >= kFewestStretches * trace.stretch)
+      traces.push_back(std::move(trace));
+    procedure.run_names.push_back(name_of_run(data.runs[i], data));
+  }
+  return traces;
+}
+
+/// The winds of the runs, where those at the vehicle are calibrated by those beside the road; warns of what speaks
+/// against them.
+CoastdownData find_checked_winds(const CoastdownData& data, bool on_board, std::vector<TraceRun>& traces,
+                                 RoadLoadProcedure& procedure) {
+  if (!on_board) return data;
+  require_one_speed_unit(traces);
+  const bool contradict = do_anemometers_contradict(data, find_winds(data, traces), procedure.warnings);
+  const bool is_calibrated = !contradict && calibrate_air(data, traces, procedure.warnings);
+  procedure.tested.has_air_speed = !is_calibrated;  // else an error of the air speed cancels
+  if (!is_calibrated && has_yaw(data, on_board)) doubt_vane(data, traces, procedure.warnings);
+  return find_winds(data, traces);
+}
+
+TraceTerms choose_terms(const CoastdownData& data, const CoastdownData& winds, bool on_board,
+                        const std::vector<TraceRun>& traces, const RoadLoadProcedureOptions& options,
+                        RoadLoadProcedure& procedure) {
+  TraceTerms terms;
+  terms.has_B = options.kind == RoadLoadProcedureKind::kJ2263;
+  terms.yaw_degree = options.kind == RoadLoadProcedureKind::kJ2263 ? options.yaw_degree : 0;
+  terms.has_slope = std::all_of(data.runs.begin(), data.runs.end(),
+                                [](const CoastdownRun& run) { return run.conditions.slope.empty(); });
+  if (terms.yaw_degree == 0) return terms;
+  if (on_board && has_yaw(data, on_board)) doubt_yaw_unit(winds, traces, procedure.warnings);
+  const double widest_rad = find_widest_yaw(traces);
+  if (!has_yaw(data, on_board)) {
+    terms.yaw_degree = 0;
+    procedure.warnings.push_back(
+        fmt::format("no column {}: the yaw angle was not measured and is taken as 0, the drag area is fitted as one "
+                    "number, which holds the drag of a wind across the road",
+                    on_board ? "yaw_deg" : "crosswind_m_s"));
+  } else if (widest_rad < kLeastYaw_rad) {
+    terms.yaw_degree = 0;
+    procedure.warnings.push_back("the yaw angle stays below 1 deg: the drag area is fitted as one number");
+  }
+  return terms;
+}
+
 RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoadProcedureOptions& options) {
-  constexpr double kReferencePressure_Pa = 98.21e3;  // 40 CFR 1066.305
-  constexpr WindLimits kOnBoard{7.0, 10.0, 4.0, "UN GTR 15 Annex 4, 4.1.1.1.2"};
+  constexpr WindLimits kOnBoard{7.0, 10.0, 4.0, "UN GTR 15 Annex 4, 4.1.1.1.2", "yaw_deg"};
   constexpr WindLimits kStationary{16.0 / 3.6, 20.0 / 3.6, 8.0 / 3.6, "SAE J1263"};
   RoadLoadProcedure procedure;
   procedure.kind = options.kind;
   const bool on_board = require_air(file.data, options);
   put_masses(options, procedure);
-  put_conditions(file.data, options, kReferencePressure_Pa, procedure);
-  std::vector<TraceRun> traces;
-  for (std::size_t i = 0; i < file.data.runs.size(); ++i) {
-    TraceRun trace = cut_trace(file.data.runs[i], i, options, procedure.correction.reference_pressure_Pa);
-    if (trace.stretch > 0 && trace.samples.size() >= kFewestStretches * trace.stretch)
-      traces.push_back(std::move(trace));
-    procedure.run_names.push_back(name_of_run(file.data.runs[i], file.data));
-  }
-  if (on_board) require_one_speed_unit(traces);
-  const bool is_calibrated = on_board && calibrate_air(file.data, traces, procedure.warnings);
+  put_conditions(file.data, options, kSaeAir, procedure);
+  std::vector<TraceRun> traces = cut_traces(file.data, options, procedure);
+  const CoastdownData winds = find_checked_winds(file.data, on_board, traces, procedure);
   const bool has_air = on_board || !file.data.runs.front().conditions.wind_m_s.empty();
-  const std::vector<std::string> windy = check_winds(on_board ? find_winds(file.data, traces) : file.data,
-                                                     on_board ? kOnBoard : kStationary, procedure.checks);
+  const std::vector<std::string> windy = check_winds(winds, on_board ? kOnBoard : kStationary, procedure.checks);
+  check_slopes(file.data, procedure.checks);
+  procedure.wind_m_s = find_common_wind(winds);
   if (!has_air) {
     procedure.warnings.push_back("no column wind_m_s: the runs count as in still air");
   }
   traces = keep_pairs(file.data, std::move(traces), windy, procedure);
-  TraceTerms terms;
-  terms.has_B = options.kind == RoadLoadProcedureKind::kJ2263;
-  terms.yaw_degree = options.kind == RoadLoadProcedureKind::kJ2263 ? options.yaw_degree : 0;
-  terms.has_slope = std::all_of(file.data.runs.begin(), file.data.runs.end(),
-                                [](const CoastdownRun& run) { return run.conditions.slope.empty(); });
-  if (terms.yaw_degree > 0 && find_widest_yaw(traces) < kLeastYaw_rad) {
-    terms.yaw_degree = 0;
-    procedure.warnings.push_back("the yaw angle stays below 1 deg: the drag area is fitted as one number");
-  }
+  const TraceTerms terms = choose_terms(file.data, winds, on_board, traces, options, procedure);
   const double mass_kg = procedure.correction.mass_kg;
   std::vector<LinearBlock> blocks;
   for (const TraceRun& trace : traces) {
@@ -460,7 +578,6 @@ RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoad
   procedure.tested.correction = procedure.correction;
   procedure.tested.correction.wind_m_s = 0.0;  // it is in the equation of motion
   if (!procedure.rotating_mass_assumed) procedure.tested.rotating_mass_kg = procedure.rotating_mass_kg;
-  procedure.tested.has_air_speed = on_board && !is_calibrated;  // else an error of the air speed cancels
   for (std::size_t k = 0; k < traces.size(); ++k) {
     const VectorXd fitted = blocks[k].X * estimate.coefficients;
     for (Index row = 0; row < fitted.size(); ++row) {
@@ -469,6 +586,7 @@ RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoad
                                   blocks[k].y(row), fitted(row)});
     }
   }
+  doubt_recorded_conditions(winds, on_board ? "air_speed_km_h" : "wind_m_s", !terms.has_slope, procedure);
   doubt_units(procedure);
   return procedure;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <Eigen/QR>
@@ -9,6 +10,7 @@
 #include "estimation/road_load/coastdown_points.h"
 #include "estimation/road_load/road_load_procedure.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -103,6 +105,26 @@ std::vector<ReferenceRun> list_reference_runs(const CoastdownData& data, const R
   return runs;
 }
 
+/// Throws InputError where too few reference speeds lie below the highest speed, which is that of a test in m/s.
+void require_speeds_in_km_h(const CoastdownFile& file, const std::vector<ReferenceRun>& runs) {
+  constexpr double kMostTop_km_h = 60.0;  // Assumed: 200 km/h in m/s is 56
+  constexpr std::size_t kFewest = 3;
+  std::set<int> speeds;
+  for (const ReferenceRun& run : runs) {
+    for (const auto& [km_h, value] : run.values) speeds.insert(km_h);
+  }
+  double top_m_s = 0.0;
+  for (const CoastdownRun& run : file.data.runs) {
+    for (const double speed_m_s : run.speed_m_s) top_m_s = std::max(top_m_s, speed_m_s);
+    for (const SpeedBin& bin : run.bins) top_m_s = std::max(top_m_s, bin.high_m_s);
+  }
+  if (speeds.size() >= kFewest || kKmhPerMs * top_m_s > kMostTop_km_h) return;
+  throw InputError({fmt::format("the speeds end at {:.1f}: the runs have a time at {} only. Are the speeds in m/s?",
+                                kKmhPerMs * top_m_s, format_count(speeds.size(), "reference speed")),
+                    "", 0, file.is_trace ? "speed_km_h" : "v_hi_kmh", fmt::format("{:.1f}", kKmhPerMs * top_m_s),
+                    "speeds in km/h, from 135 km/h to 15 km/h", ""});
+}
+
 void check_overlaps(RoadLoadProcedure& procedure) {
   constexpr double kMost_N = 10.0;
   constexpr double kMostShare = 0.05;
@@ -135,15 +157,15 @@ void check_overlaps(RoadLoadProcedure& procedure) {
 }  // namespace
 
 RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const RoadLoadProcedureOptions& options) {
-  constexpr double kReferencePressure_Pa = 100e3;
   RoadLoadProcedure procedure;
   procedure.kind = RoadLoadProcedureKind::kWltp;
   put_masses(options, procedure);
-  put_conditions(file.data, options, kReferencePressure_Pa, procedure);
+  put_conditions(file.data, options, kWltpAir, procedure);
   const std::vector<std::string> windy =
       check_winds(file.data, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, procedure.checks);
   const std::vector<ReferenceRun> runs = list_reference_runs(file.data, options);
   for (const ReferenceRun& run : runs) procedure.run_names.push_back(run.name);
+  require_speeds_in_km_h(file, runs);
   std::map<int, double> speeds_m_s;
   for (int km_h = kLowestReference_km_h; km_h <= kHighestReference_km_h; km_h += kReferenceStep_km_h) {
     speeds_m_s[km_h] = km_h * kMeterPerSecond;
@@ -158,7 +180,8 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
     procedure.warnings.push_back(
         "no column wind_m_s: nothing is subtracted for the wind, which both headings have in f0 (f2 times its square)");
   }
-  procedure.correction.wind_m_s = find_common_wind(file.data);
+  procedure.wind_m_s = find_common_wind(file.data);
+  procedure.correction.wind_m_s = procedure.wind_m_s.value_or(0.0);
   check_reference_speeds(procedure);
   check_reference_precision(procedure);
   check_overlaps(procedure);
@@ -173,6 +196,7 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
     }
   }
   put_fitted(procedure);
+  doubt_recorded_conditions(file.data, "wind_m_s", false, procedure);
   doubt_units(procedure);
   return procedure;
 }

@@ -36,8 +36,7 @@ models::InputPort<double> VehicleDrive::read_program(const State& state, std::si
 /// Drag and given road load, against the body's motion.
 double VehicleDrive::calc_body_drag_N(double speed_m_s, const models::InputPort<double>& acting) const {
   if (!is_on_road()) return 0.0;
-  const double density_kg_per_m3 = layout_.air_density_kg_per_m3 * acting.air_density_ratio;
-  return models::calc_drag_N(density_kg_per_m3, layout_.drag_area_m2, speed_m_s, acting.wind_m_s) +
+  return calc_air_drag_N(layout_, acting.air_density_ratio, speed_m_s, acting.wind_m_s) +
          models::calc_faded_road_load_N(layout_.resistance, speed_m_s);
 }
 

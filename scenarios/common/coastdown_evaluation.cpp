@@ -45,7 +45,11 @@ void Coastdowns::check(const RunSpec& spec) const {
     throw InputError(setting_problem(spec, "to_km_h", "the coastdown would fall through less than 10 km/h",
                                      fmt::format("less than {:.1f} km/h", 3.6 * from_m_s - 10.0)));
   }
-  if (is_on_road(spec.rig.kind->traits)) return;
+  if (is_on_road(spec.rig.kind->traits)) {
+    if (wind_m_s == 0.0 || spec.vehicle->body.drag_area_m2 > 0.0) return;
+    throw InputError(setting_problem(spec, "wind_m_s", "the vehicle has no drag area that a wind acts on",
+                                     "0, or a vehicle with drag_area_m2"));
+  }
   for (const char* key : {"slope_percent", "wind_m_s"}) {
     if (spec.settings.find(key) != nullptr) {
       throw InputError(setting_problem(spec, key, "rollers have neither slope nor wind", "a rig of kind \"road\""));

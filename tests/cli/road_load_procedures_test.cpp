@@ -101,7 +101,8 @@ TEST_CASE("fit road-load by procedures: options and files that do not go togethe
   CHECK_THAT(error_of("--method wltp"), Contains("mass is missing"));
   CHECK_THAT(error_of("--method wltpp --mass 1850"), Contains("wltp"));
   CHECK_THAT(error_of("--method wltp --per-mass"), Contains("--per-mass has no meaning"));
-  CHECK_THAT(error_of("--mass 1850 --corrected-mass 1800"), Contains("--corrected-mass has no meaning"));
+  CHECK_THAT(error_of("--mass 1850 --corrected-mass 1800"),
+             Contains("--corrected-mass has no meaning") && !Contains("j1263"));
   CHECK_THAT(error_of("--method wltp --mass 1850 --wheel-radius 0.3"), Contains("torque-meter"));
   CHECK_THAT(error_of("--method j1263 --mass 1850 --corrected-mass 1800"), Contains("no correction for the mass"));
   CHECK_THAT(error_of("--method wltp --mass 1850 --monte-carlo 5"), Contains("--monte-carlo"));

@@ -215,3 +215,44 @@ TEST_CASE("SAE J2263: what is wrong with a test is said", "[fast]") {
     CHECK_THROWS_WITH(evaluate_traces(simulated.file, options), Contains("within the limits of the wind: 0"));
   }
 }
+
+TEST_CASE("SAE J2263: a yaw that was not measured is said, and no crosswind passes", "[fast]") {
+  ProcedureStudy study = make_calm_study();
+  study.on_board = true;
+  study.crosswind_m_s = 2.0;
+  tests::SimulatedProcedure simulated = simulate_procedure(study, 1);
+  for (CoastdownRun& run : simulated.file.data.runs) run.conditions.yaw_rad.clear();
+  RoadLoadProcedureOptions options;
+  options.kind = RoadLoadProcedureKind::kJ2263;
+  options.mass_kg = study.mass_kg;
+  const RoadLoadProcedure procedure = evaluate_traces(simulated.file, options);
+  CHECK(has_warning_of(procedure, "no column yaw_deg: the yaw angle was not measured"));
+  CHECK_FALSE(has_warning_of(procedure, "stays below 1 deg"));
+  for (const RoadLoadCheck& check : procedure.checks) {
+    if (check.name != "crosswind, mean of a run") continue;
+    CHECK(check.status == CheckStatus::kNotChecked);
+    CHECK(check.found == "no column yaw_deg");
+  }
+}
+
+TEST_CASE("SAE J2263: a vane that is off, or in rad, is doubted", "[fast]") {
+  ProcedureStudy study = make_calm_study();
+  study.on_board = true;
+  study.wind_m_s = 1.0;
+  study.crosswind_m_s = 2.0;
+  study.air_noise_m_s = 0.1;
+  RoadLoadProcedureOptions options;
+  options.kind = RoadLoadProcedureKind::kJ2263;
+  options.mass_kg = study.mass_kg;
+  const auto evaluate_yaw = [&](double factor, double offset_rad) {
+    tests::SimulatedProcedure simulated = simulate_procedure(study, 1);
+    for (CoastdownRun& run : simulated.file.data.runs) {
+      for (double& yaw_rad : run.conditions.yaw_rad) yaw_rad = factor * yaw_rad + offset_rad;
+    }
+    return evaluate_traces(simulated.file, options);
+  };
+  const RoadLoadProcedure right = evaluate_yaw(1.0, 0.0);
+  CHECK_FALSE(has_warning_of(right, "yaw_deg"));
+  CHECK(has_warning_of(evaluate_yaw(1.0, 5.0 * kDeg), "deg on average of both headings"));
+  CHECK(has_warning_of(evaluate_yaw(kDeg, 0.0), "Are the angles in rad?"));
+}

@@ -21,7 +21,10 @@ RoadLoadFitOptions make_options() {
 }
 
 CoastdownFile make_file(const tests::CoastdownStudy& study = {}) {
-  return {tests::simulate_coastdowns(study, 1), true, {}, 0, {}};
+  CoastdownFile file;
+  file.data = tests::simulate_coastdowns(study, 1);
+  file.is_trace = true;
+  return file;
 }
 
 }  // namespace

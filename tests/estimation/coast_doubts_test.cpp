@@ -1,6 +1,7 @@
 // What a person is told of drum coastdowns that are not what they seem.
 #include "estimation/drum_deceleration/coast_doubts.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/support/coast_study.h"
@@ -109,4 +110,43 @@ TEST_CASE("where loads differ, every loaded run needs its own", "[fast]") {
   CHECK_THROWS_WITH(read_coast_set(folder.file("set.toml")), Contains("the loads of the runs differ"));
   write_file(folder.file("set.toml"), head + loaded + "load_N = 500\n" + loaded + run("lifted"));
   CHECK(read_coast_set(folder.file("set.toml")).runs[1].load_N == 500.0);
+}
+
+TEST_CASE("two runs whose pressures are exchanged are named", "[fast]") {
+  CoastSet set = make_set();
+  std::swap(set.runs[0].pressure_Pa, set.runs[8].pressure_Pa);  // 280 and 560 kPa
+  const DrumCoastdownFit fit = fit_drum_coastdown(set);
+  REQUIRE(fit.doubts.size() == 1);
+  CHECK(fit.doubts[0].runs == std::vector<std::string>{"0.csv", "8.csv"});
+  CHECK_THAT(fit.warnings.front(), Contains("look as if their pressures were exchanged"));
+  REQUIRE(fit.others != nullptr);
+}
+
+TEST_CASE("pressures that are all the other way round are doubted by their exponent", "[fast]") {
+  CoastSet set = make_set();
+  for (CoastRun& run : set.runs) {
+    if (run.state == CoastState::kLoaded) run.pressure_Pa = 280e3 * 560e3 / run.pressure_Pa;
+  }
+  const auto warnings = fit_drum_coastdown(set).warnings;
+  CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("would rise with pressure") != std::string::npos;
+  }));
+}
+
+TEST_CASE("without a load the force is bounded, and its judgment said to be missing", "[fast]") {
+  CoastSet set = make_set();
+  const auto says = [&set](double inertia_kg_m2) {
+    set.drum_inertia_kg_m2 = inertia_kg_m2;
+    std::string all;
+    for (const std::string& warning : fit_drum_coastdown(set).warnings) all += warning + "; ";
+    return all;
+  };
+  CHECK_THAT(says(400.0), Contains("no load_N in the runs") && !Contains("car tires have"));
+  CHECK_THAT(says(30.0), Contains("car tires have about 20 to 100 N"));
+  CHECK_THROWS_WITH(says(4.0), Contains("that of no tire"));
+  set.drum_inertia_kg_m2.reset();
+  for (CoastRun& run : set.runs) {
+    for (double& time_s : run.drum->time_s) time_s /= 60.0;
+  }
+  CHECK_THROWS_WITH(fit_drum_coastdown(set), Contains("they would be usual in min"));
 }

@@ -226,3 +226,23 @@ TEST_CASE("a covariance of means does not ask where zero is, not with runs that 
   CHECK(calc_mean_covariance(shifted, 0, 1) == Approx(covariance));
   CHECK(calc_mean_covariance(table, 1, 0) == Approx(covariance));
 }
+
+TEST_CASE("levels that lie on a power law by chance leave the exponent the scatter of its repeats", "[fast]") {
+  // three levels on a line, whose runs scatter
+  std::vector<std::vector<Vector>> loaded;
+  for (int level = 0; level < 3; ++level) {
+    const double net = 0.05 * std::pow(1.2, -0.45 * level);
+    const double mean = net / (1.0 + kMassRatio);
+    loaded.push_back({});
+    for (const double error : {-0.02, 0.02}) {
+      const double own = (mean * (1.0 + error)) + (0.011 + kMassRatio * 0.021) / (1.0 + kMassRatio);
+      loaded.back().push_back({own, 1.5 * own});
+    }
+  }
+  const Evaluated all = evaluate(make_exact_lifted(loaded));
+  const SpeedPoint& point = all.fit.points[0];
+  REQUIRE(point.pressure_exponent.has_value());
+  CHECK(point.pressure_exponent->upper >= point.exponent_by_repeats->upper);
+  CHECK(point.pressure_exponent->lower <= point.exponent_by_repeats->lower);
+  CHECK_FALSE(point.is_exponent_by_law);
+}

@@ -78,3 +78,19 @@ TEST_CASE("a speed that the coast does not pass is not answered", "[fast]") {
   CHECK_FALSE(fit_deceleration(make_coast(), 40.0, 4.0, {}).available);
   CHECK_FALSE(fit_deceleration(make_coast(), 40.0, 4.0, {}).why.empty());
 }
+
+TEST_CASE("few rows with noise converge", "[fast]") {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    const Coast fine = make_coast(0.02, seed);
+    Coast coarse;
+    for (std::size_t i = 0; i < fine.time_s.size(); i += 10) {
+      coarse.time_s.push_back(fine.time_s[i]);
+      coarse.smooth_m_s.push_back(fine.smooth_m_s[i]);
+      coarse.speed_m_s.push_back(fine.speed_m_s[i]);
+    }
+    for (const double v : {8.0, 12.0, 16.0}) {
+      INFO("seed " << seed << ", " << v << " m/s");
+      CHECK(fit_deceleration(coarse, v, 4.0, {}).why.empty());
+    }
+  }
+}

@@ -61,3 +61,23 @@ TEST_CASE("the fit without a method doubts speeds in mph if it has a mass", "[fa
   CHECK(count_doubts(study.mass_kg) == 1);
   CHECK(count_doubts(std::nullopt) == 0);
 }
+
+TEST_CASE("speeds in m/s are not taken for mph", "[fast]") {
+  const auto doubts = doubt_road_load(slow_down(kCar, 3.6), kCarMass_kg, kCarTop_m_s / 3.6);
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Contains("in m/s and not in km/h"));
+}
+
+TEST_CASE("masses that do not go together are doubted", "[fast]") {
+  CHECK(doubt_masses(1850.0, std::nullopt, std::nullopt).empty());
+  CHECK(doubt_masses(1850.0, 55.5, 1900.0).empty());
+  CHECK(doubt_masses(1850.0, 20.0, 1600.0).empty());
+  for (const double rotating_kg : {0.0, 550.0}) {
+    const auto doubts = doubt_masses(1850.0, rotating_kg, std::nullopt);
+    REQUIRE(doubts.size() == 1);
+    CHECK_THAT(doubts[0], Contains("of a vehicle in neutral"));
+  }
+  const auto doubts = doubt_masses(1850.0, std::nullopt, 4079.0);
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Contains("2.2 times the mass as tested"));
+}

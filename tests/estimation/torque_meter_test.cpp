@@ -224,3 +224,44 @@ TEST_CASE("torque meter: without wheel speeds a radius is asked for", "[fast]") 
   options.wheel_radius_m = 0.3;
   CHECK_THROWS_WITH(evaluate_torques(csv, options), Contains("same heading"));
 }
+
+TEST_CASE("torque meter: a recording that is there twice counts once", "[fast]") {
+  TorqueStudy study;
+  study.pairs = 4;
+  study.pair_sd = 0.01;
+  const std::string once = write_torques(study);
+  std::string twice = once;
+  std::size_t line = once.find('\n') + 1;
+  while (line < once.size()) {
+    const std::size_t end = once.find('\n', line) + 1;
+    std::string row = once.substr(line, end - line);
+    line = end;
+    std::size_t field = 0;
+    for (int comma = 0; comma < 4; ++comma) field = row.find(',', field) + 1;
+    const int run = std::stoi(row.substr(field));
+    if (run > 2) continue;
+    row.replace(field, row.find(',', field) - field, std::to_string(run + 20));
+    twice += row;
+  }
+  const RoadLoadProcedure first = evaluate_torques(once), second = evaluate_torques(twice);
+  CHECK(second.run_names.size() == 8);
+  for (int i = 0; i < 3; ++i) CHECK(second.sd(i) == Approx(first.sd(i)));
+  CHECK_THAT(second.warnings.front(), Contains("run '1' and run '21' are the same recording"));
+}
+
+TEST_CASE("torque meter: the sign of the wind is held against the headings", "[fast]") {
+  TorqueStudy study;
+  study.wind_m_s = 2.0;
+  study.pair_sd = 0.002;
+  const auto says = [](const RoadLoadProcedure& procedure) {
+    std::string all;
+    for (const std::string& warning : procedure.warnings) all += warning;
+    return all;
+  };
+  CHECK_THAT(says(evaluate_torques(write_torques(study))), !Contains("the headings show"));
+  std::string csv = write_torques(study);
+  for (std::size_t at = csv.find(",2,car"); at != std::string::npos; at = csv.find(",2,car", at + 3)) {
+    csv.replace(at, 6, ",-2,car");
+  }
+  CHECK_THAT(says(evaluate_torques(csv)), Contains("its sign looks reversed"));
+}

@@ -190,3 +190,21 @@ TEST_CASE("WLTP coastdown: what is wrong with a test is said", "[fast]") {
     CHECK_THROWS_WITH(evaluate_wltp_coastdowns(simulated.file, options), Contains("no bins end at"));
   }
 }
+
+TEST_CASE("WLTP coastdown: a wind that was not measured is no wind of 0", "[fast]") {
+  tests::SimulatedProcedure simulated = simulate_procedure(make_quiet_study(), 1);
+  const RoadLoadProcedure measured = evaluate_wltp_coastdowns(simulated.file, make_wltp_options(1850.0));
+  CHECK(measured.wind_m_s == 0.0);
+  CHECK_THAT(find_check(measured, "ambient temperature").clause, Contains("UN GTR 15"));
+  for (CoastdownRun& run : simulated.file.data.runs) run.conditions.wind_m_s.clear();
+  CHECK_FALSE(evaluate_wltp_coastdowns(simulated.file, make_wltp_options(1850.0)).wind_m_s.has_value());
+}
+
+TEST_CASE("WLTP coastdown: speeds in m/s, which leave few reference speeds, are asked for their unit", "[fast]") {
+  tests::SimulatedProcedure simulated = simulate_procedure(make_quiet_study(), 1);
+  for (CoastdownRun& run : simulated.file.data.runs) {
+    for (double& speed_m_s : run.speed_m_s) speed_m_s /= 3.6;
+  }
+  CHECK_THROWS_WITH(evaluate_wltp_coastdowns(simulated.file, make_wltp_options(1850.0)),
+                    Contains("Are the speeds in m/s?"));
+}

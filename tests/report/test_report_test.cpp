@@ -107,6 +107,27 @@ TEST_CASE("the date of a report can be given, so that a report is made again to 
   CHECK_FALSE(std::filesystem::exists(folder.file("three.html")));
 }
 
+TEST_CASE("only the report of a recording with the manifest of a simulation says that it is simulated", "[fast]") {
+  const TemporaryFolder folder;
+  tests::ProcedureStudy study;
+  study.pairs = 3;
+  write_file(folder.file("coast.csv"), tests::write_procedure_csv(tests::simulate_procedure(study, 1).file.data));
+  for (const std::string method : {"", " --method wltp", " --method j1263", " --method j2263"}) {
+    const auto run = run_program("fit road-load coast.csv --mass 1850" + method + " --quiet --report -", folder.path());
+    REQUIRE(run.status == 0);
+    CHECK(run.out.find("simulation") == std::string::npos);
+  }
+  REQUIRE(
+      run_program("run coastdown --tire a50 --rig road --fidelity quasi_static --quiet --set pairs=3 --out simulated",
+                  folder.path())
+          .status == 0);
+  for (const std::string method : {"", " --method wltp"}) {
+    const auto run = run_program("fit road-load simulated" + method + " --quiet --report -", folder.path());
+    REQUIRE(run.status == 0);
+    CHECK(run.out.find("come from a simulation") != std::string::npos);
+  }
+}
+
 TEST_CASE("a report names every file that was read, with its hash", "[fast]") {
   const TemporaryFolder folder;
   const std::string tire = read_file(std::string(ROLLRIG_SOURCE_DIR) + "/assets/tires/a50.toml");

@@ -71,6 +71,27 @@ TEST_CASE("a coastdown with A, B and C takes the time of the closed form, on the
   }
 }
 
+TEST_CASE("a wind acts on the drag area of a vehicle that is given by its road load", "[fast]") {
+  constexpr double kWind_m_s = 1.5, kSeconds = 10.0;
+  for (VehicleFixture fixture : all_on("road")) {
+    fixture.vehicle.road_load = kRoadLoad;
+    const double density_kg_per_m3 = fixture.layout().air_density_kg_per_m3;
+    for (const bool multibody : {false, true}) {
+      const auto fall_m_s = [&](double wind_m_s) {
+        const auto recording =
+            fixture.run(multibody, make_program({coasting(kFast_m_s, kSlow_m_s, 4000.0, 0.0, wind_m_s)}));
+        return kFast_m_s - recording.channel("speed_km_h")[static_cast<std::size_t>(kSeconds)];
+      };
+      const double difference_N = (fall_m_s(kWind_m_s) - fall_m_s(-kWind_m_s)) / kSeconds * fixture.total_mass_kg();
+      const double mean_m_s = kFast_m_s - 0.5 * fall_m_s(0.0);
+      INFO(name_of(multibody) << ", wheels " << fixture.layout().wheels.size());
+      // rho/2 CdA ((v + w)^2 - (v - w)^2)
+      CHECK(difference_N ==
+            Approx(2.0 * density_kg_per_m3 * fixture.vehicle.body.drag_area_m2 * mean_m_s * kWind_m_s).epsilon(0.02));
+    }
+  }
+}
+
 TEST_CASE("nothing that resists: the speed stays", "[fast]") {
   for (VehicleFixture fixture : all_on("dyno_1m2")) {
     fixture.take_losses_away();
