@@ -99,6 +99,7 @@ TEST_CASE("of 60 tests with gusts and slopes of all winds none is doubted", "[sl
   int doubted = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     auto study = make_windy_study(0.05 * static_cast<double>(seed));
+    study.interval_s = 0.5;
     study.gust_sd_m_s = 1.0;
     study.run_force_sd_N = 6.0;
     study.slope = 0.0005 * static_cast<double>(seed % 5);
