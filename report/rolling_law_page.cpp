@@ -50,7 +50,7 @@ Table make_statistics_rows(const RegressionStatistics& statistics) {
                      format_count(static_cast<std::size_t>(lack.pure_error_freedom), "degree") + " of freedom")});
     list.rows.push_back({"lack of fit", fmt::format("F = {:.3g}, p = {:.2g}", lack.F, lack.p)});
   } else {
-    list.rows.push_back({"lack of fit", "not tested: no points are repeated"});
+    list.rows.push_back({"lack of fit", estimation::explain_no_lack_of_fit(statistics.repeated_points)});
   }
   return list;
 }

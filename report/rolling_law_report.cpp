@@ -61,7 +61,8 @@ ReportForm make_law_residuals(const ReportValues& values) {
         {"Lack of fit: F and p",
          {values.number("/statistics/lack_of_fit/F", ".3g"), values.number("/statistics/lack_of_fit/p", ".2g")}});
   } else {
-    form.fields.push_back(make_field("Lack of fit", "not tested: no points are repeated"));
+    const int repeated_points = values.json()["statistics"]["repeated_points"].get<int>();
+    form.fields.push_back(make_field("Lack of fit", estimation::explain_no_lack_of_fit(repeated_points)));
   }
   return form;
 }

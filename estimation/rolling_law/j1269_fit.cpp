@@ -102,6 +102,7 @@ void warn_of_multipoint(MultipointFit& fit) {
         "lack of fit: the points leave the law by more than repeated points scatter (F = {:.3g}, p = {:.2g})", lack->F,
         lack->p));
   }
+  if (const auto doubt = doubt_largest_residual(fit.points)) fit.warnings.push_back(*doubt);
   if (std::abs(fit.speed_m_s / kReferenceSpeed_m_s - 1.0) > 0.02) {
     fit.warnings.push_back(
         fmt::format("the speed is {:.1f} km/h, and that of SAE J1269 is 80 km/h", kKmhPerMs * fit.speed_m_s));

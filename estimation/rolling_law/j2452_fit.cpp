@@ -198,23 +198,7 @@ void warn_of_j2452(J2452Fit& fit) {
         "standard deviations hold that, but the law is not exact over this range",
         lack->F, lack->p));
   }
-  constexpr double kMisses = 0.03;  // Assumed: several times what repeated tests differ by
-  if (fit.statistics.largest_residual > kMisses) {
-    fit.warnings.push_back(
-        fmt::format("the law misses a point by {:.1f} %: a parabola over speed and powers of load and pressure do not "
-                    "describe this tire over this range, or a point is wrong",
-                    100.0 * fit.statistics.largest_residual));
-  }
-  if (fit.law.alpha > 0.0) {
-    fit.warnings.push_back(fmt::format(
-        "alpha is {:.3g}: rolling resistance would rise with pressure, which no tire does on a hard surface",
-        fit.law.alpha));
-  }
-  constexpr double kLeastBeta = 0.5;  // Assumed: tires have 0.8 to 1.5
-  constexpr double kMostBeta = 2.0;
-  if (fit.law.beta < kLeastBeta || fit.law.beta > kMostBeta) {
-    fit.warnings.push_back(fmt::format("beta is {:.3g}, where tires have 0.8 to 1.5: check the loads", fit.law.beta));
-  }
+  if (const auto doubt = doubt_largest_residual(fit.points)) fit.warnings.push_back(*doubt);
 }
 
 }  // namespace

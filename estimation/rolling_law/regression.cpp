@@ -1,5 +1,7 @@
 #include "estimation/rolling_law/regression.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,6 +72,22 @@ RegressionStatistics calc_statistics(const std::vector<FittedPoint>& points, int
   if (statistics.freedom > 0) statistics.residual_sd_N = std::sqrt(squares_N2 / statistics.freedom);
   put_lack_of_fit(points, squares_N2, statistics);
   return statistics;
+}
+
+std::string explain_no_lack_of_fit(int repeated_points) {
+  return repeated_points == 0 ? "not tested: no points are repeated"
+                              : "not tested: repeated points do not scatter, or leave the law no freedom";
+}
+
+std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>& points) {
+  constexpr double kMisses = 0.03;
+  const auto share = [](const FittedPoint& at) { return std::abs(at.residual_N() / at.point.force_N); };
+  const auto worst = std::max_element(points.begin(), points.end(),
+                                      [&](const auto& one, const auto& other) { return share(one) < share(other); });
+  if (worst == points.end() || share(*worst) <= kMisses) return std::nullopt;
+  return fmt::format(
+      "the law misses {} by {:.1f} %: it does not describe this tire over this range, or a point is wrong",
+      name_point(worst->point), 1e2 * share(*worst));
 }
 
 Eigen::MatrixXd invert_normal(const Eigen::MatrixXd& jacobian, std::vector<double>& leverages) {

@@ -45,6 +45,13 @@ struct RegressionStatistics {
 /// Assumed: 0.5 %, what a machine holds
 RegressionStatistics calc_statistics(const std::vector<FittedPoint>& points, int coefficients);
 
+/// Why there is no test of lack of fit.
+std::string explain_no_lack_of_fit(int repeated_points);
+
+/// A warning where a law misses a point by more than 3 % of its force. Assumed: several times what repeated tests
+/// differ by
+std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>& points);
+
 /// (J^T J)^-1 by a QR decomposition of J with columns of unit length; `leverages` gets the diagonal of the hat matrix.
 /// Throws RunFailure where the points do not decide the coefficients.
 Eigen::MatrixXd invert_normal(const Eigen::MatrixXd& jacobian, std::vector<double>& leverages);

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
@@ -37,7 +40,7 @@ RollingTest read_csv_points(const std::string& path) {
   RollingTest test;
   test.path = path;
   for (std::size_t i = 0; i < table.row_count(); ++i) {
-    test.points.push_back({speed_m_s[i], load_N[i], pressure_Pa[i], force_N[i]});
+    test.points.push_back({speed_m_s[i], load_N[i], pressure_Pa[i], force_N[i], table.line_of(i)});
   }
   return test;
 }
@@ -83,7 +86,7 @@ RollingTest read_result_points(const std::string& path, PressureTaken taken) {
       return read_record_number(steps[i], key, field, path, i);
     };
     test.points.push_back({number("speed_km_h", kSpeed), number("load_N", kLoad), number(pressure_key, kPressure),
-                           number("rolling_resistance_N", kForce)});
+                           number("rolling_resistance_N", kForce), 0});
   }
   test.maximum_load_N = find_result_number(result, "maximum_load_N");
   test.base_pressure_Pa = find_result_number(result, "base_pressure_kPa");
@@ -94,6 +97,12 @@ RollingTest read_result_points(const std::string& path, PressureTaken taken) {
 }
 
 }  // namespace
+
+std::string name_point(const RollingPoint& point) {
+  const std::string condition = fmt::format("{:.4g} km/h, {:.0f} N, {:.0f} kPa", kKmhPerMs * point.speed_m_s,
+                                            point.load_N, point.pressure_Pa / 1e3);
+  return point.line > 0 ? fmt::format("line {} ({})", point.line, condition) : fmt::format("a point ({})", condition);
+}
 
 ReferenceCondition make_standard_reference(double maximum_load_N, double base_pressure_Pa) {
   return {kReferenceLoadShare * maximum_load_N, base_pressure_Pa + kReferencePressureAboveBase_Pa, kReferenceSpeed_m_s};
@@ -118,12 +127,55 @@ RollingTest read_rolling_test(const std::string& path, PressureTaken taken) {
 namespace {
 
 /// Points that agree with an earlier one to the last digit.
-std::size_t count_copies(const std::vector<RollingPoint>& points) {
+std::vector<RollingPoint> find_copies(const std::vector<RollingPoint>& points) {
   std::set<std::array<double, 4>> seen;
+  std::vector<RollingPoint> copies;
   for (const RollingPoint& point : points) {
-    seen.insert({point.speed_m_s, point.load_N, point.pressure_Pa, point.force_N});
+    const bool is_new = seen.insert({point.speed_m_s, point.load_N, point.pressure_Pa, point.force_N}).second;
+    if (!is_new) copies.push_back(point);
   }
-  return points.size() - seen.size();
+  return copies;
+}
+
+/// Decimal digits that a number is written with, zeros at either end left out.
+std::size_t count_digits(double value) {
+  std::string digits;
+  for (const char c : fmt::format("{:.15g}", value)) {
+    if (c == 'e') break;
+    if (c >= '0' && c <= '9') digits += c;
+  }
+  const std::size_t first = digits.find_first_not_of('0');
+  return first == std::string::npos ? 0 : digits.find_last_not_of('0') - first + 1;
+}
+
+/// Copies that are no chance: a share of all points, or forces with more digits than two readings agree in.
+std::optional<std::string> doubt_copies(const std::vector<RollingPoint>& points) {
+  constexpr double kMostCopies = 0.2;      // Assumed: of coarsely rounded readings, fewer agree by chance
+  constexpr std::size_t kExactDigits = 6;  // Assumed: readings scatter in the fourth
+  const std::vector<RollingPoint> copies = find_copies(points);
+  const bool is_exact = std::any_of(copies.begin(), copies.end(), [](const RollingPoint& point) {
+    return count_digits(point.force_N) >= kExactDigits;
+  });
+  const bool are_many = static_cast<double>(copies.size()) > kMostCopies * static_cast<double>(points.size());
+  if (!is_exact && !are_many) return std::nullopt;
+  return fmt::format(
+      "{} of {} points are copies of others, the first {}: if they were not measured again, all standard deviations "
+      "are too small",
+      copies.size(), points.size(), name_point(copies.front()));
+}
+
+/// Doubts of units by the load over its pressure, which is about the area of contact.
+std::optional<std::string> doubt_area(const std::vector<RollingPoint>& points) {
+  constexpr double kLeast_m2 = 0.0100;  // Assumed: small car tires have 0.014, truck tires with loads in lbf 0.009
+  constexpr double kMost_m2 = 0.1500;   // Assumed: wide tires of off-road trucks have 0.13; truck tires in psi 0.26
+  double area_m2 = 0.0;
+  for (const RollingPoint& point : points) area_m2 = std::max(area_m2, point.load_N / point.pressure_Pa);
+  if (area_m2 >= kLeast_m2 && area_m2 <= kMost_m2) return std::nullopt;
+  return fmt::format(
+      "the largest load over its pressure is {:.0f} cm2, a contact patch of a tire has some 200 (cars) to 400 "
+      "(trucks): {}",
+      1e4 * area_m2,
+      area_m2 < kLeast_m2 ? "is the load in lbf or kg and not in N?" : "is the pressure in psi and not in kPa?");
 }
 
 double calc_median_coefficient(const std::vector<RollingPoint>& points) {
@@ -148,7 +200,6 @@ void require_plausible_coefficient(const std::string& path, const std::vector<Ro
 }
 
 std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
-  constexpr double kMostCopies = 0.2;  // Assumed: of coarsely rounded readings, fewer agree by chance
   if (points.empty()) return {};
   std::vector<std::string> doubts;
   constexpr double kBest = 3.5e-3;  // Assumed: the best tires have 4 N/kN (class A of C3); 15 N/kN in lbf are 3.4
@@ -159,21 +210,78 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
                     "force in lbf and not in N?",
                     1e3 * coefficient));
   }
-  constexpr double kLeastArea_m2 = 0.0075;  // Assumed: load over pressure; car tires at full load have 0.02
-  double area_m2 = 0.0;
-  for (const RollingPoint& point : points) area_m2 = std::max(area_m2, point.load_N / point.pressure_Pa);
-  if (area_m2 < kLeastArea_m2) {
-    doubts.push_back(
-        fmt::format("the largest load over its pressure is {:.0f} cm2, a contact patch of a tire of a car has some 200: "
-                    "is the load in lbf or kg and not in N?",
-                    1e4 * area_m2));
+  if (const auto doubt = doubt_area(points)) doubts.push_back(*doubt);
+  if (const auto doubt = doubt_copies(points)) doubts.push_back(*doubt);
+  for (const std::string& doubt : doubt_trends(points)) doubts.push_back(doubt);
+  return doubts;
+}
+
+namespace {
+
+/// Exponents of the force over pressure, load and speed; empty where the points do not decide it.
+struct Trends {
+  std::optional<double> alpha, beta, gamma;
+};
+
+Trends find_trends(const std::vector<RollingPoint>& points) {
+  Trends trends;
+  std::vector<std::pair<double RollingPoint::*, std::optional<double>*>> varied;
+  for (const auto& [member, exponent] :
+       {std::pair{&RollingPoint::pressure_Pa, &trends.alpha}, std::pair{&RollingPoint::load_N, &trends.beta},
+        std::pair{&RollingPoint::speed_m_s, &trends.gamma}}) {
+    std::vector<double> values;
+    for (const RollingPoint& point : points) values.push_back(point.*member);
+    if (count_levels(values) > 1) varied.emplace_back(member, exponent);
   }
-  const std::size_t copies = count_copies(points);
-  if (static_cast<double>(copies) > kMostCopies * static_cast<double>(points.size())) {
+  const auto rows = static_cast<Eigen::Index>(points.size());
+  const auto columns = static_cast<Eigen::Index>(varied.size()) + 1;
+  Eigen::MatrixXd design = Eigen::MatrixXd::Ones(rows, columns);
+  Eigen::VectorXd log_force(rows);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const RollingPoint& point = points[static_cast<std::size_t>(row)];
+    log_force(row) = std::log(point.force_N);
+    for (Eigen::Index i = 1; i < columns; ++i) {
+      design(row, i) = std::log(point.*varied[static_cast<std::size_t>(i) - 1].first);
+    }
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(design);
+  if (rows <= columns || solver.rank() < columns) return trends;
+  const Eigen::VectorXd found = solver.solve(log_force);
+  for (Eigen::Index i = 1; i < columns; ++i) *varied[static_cast<std::size_t>(i) - 1].second = found(i);
+  return trends;
+}
+
+}  // namespace
+
+std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points) {
+  constexpr double kLeastBeta = 0.5;
+  constexpr double kMostBeta = 2.0;
+  constexpr double kMostFall = 0.05;
+  std::vector<std::string> doubts;
+  const Trends trends = find_trends(points);
+  if (trends.alpha.value_or(-1.0) > 0.0) {
     doubts.push_back(
-        fmt::format("{} of {} points are copies of others: if they were not measured again, all standard deviations "
-                    "are too small",
-                    copies, points.size()));
+        fmt::format("rolling resistance rises with pressure (to the power {:.2g}), where that of tires on a hard surface "
+                    "falls: are pressures exchanged between points?",
+                    *trends.alpha));
+  }
+  const double beta = trends.beta.value_or(1.0);
+  if (beta < kLeastBeta || beta > kMostBeta) {
+    doubts.push_back(fmt::format(
+        "rolling resistance goes with load to the power {:.2g}, where tires have 0.8 to 1.5: are loads exchanged "
+        "between points?",
+        beta));
+  }
+  if (!trends.gamma.has_value()) return doubts;
+  const auto [slow, fast] = std::minmax_element(points.begin(), points.end(), [](const auto& one, const auto& other) {
+    return one.speed_m_s < other.speed_m_s;
+  });
+  const double change = std::pow(fast->speed_m_s / slow->speed_m_s, *trends.gamma) - 1.0;
+  if (change < -kMostFall) {
+    doubts.push_back(
+        fmt::format("rolling resistance falls by some {:.0f} % from {:.0f} to {:.0f} km/h: in a coastdown the tire "
+                    "stays warm, and it rises. Are the speeds in the order of the points?",
+                    -1e2 * change, kKmhPerMs * slow->speed_m_s, kKmhPerMs * fast->speed_m_s));
   }
   return doubts;
 }

@@ -13,7 +13,11 @@ struct RollingPoint {
   double load_N = 0.0;
   double pressure_Pa = 0.0;  // gauge
   double force_N = 0.0;      // rolling resistance, parasitic loss subtracted
+  int line = 0;              // of its file; 0 where it is of none
 };
+
+/// A point by line and condition: "line 14 (80 km/h, 4600 N, 250 kPa)".
+std::string name_point(const RollingPoint& point);
 
 /// Load and pressure at which one number stands for the tire, and the speed of a coefficient.
 struct ReferenceCondition {
@@ -55,8 +59,16 @@ RollingTest read_rolling_test(const std::string& path, PressureTaken taken = Pre
 /// in another unit, such as kgf.
 void require_plausible_coefficient(const std::string& path, const std::vector<RollingPoint>& points);
 
-/// Doubts that hold for each of the fits: points that are copies of others.
+/// Doubts that hold for each of the fits: units of force, load and pressure, points that are copies of others, and what
+/// doubt_trends() finds.
 std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points);
+
+/// Doubts by how the force goes with pressure, load and speed, whatever law is fitted: columns whose values stand in
+/// the wrong rows.
+/// Equation  ln F = k + alpha ln P + beta ln Z + gamma ln v, by least squares, of those that have several values
+/// Assumed: alpha is not above 0; beta is 0.5 to 2, where tires have 0.8 to 1.5; over the speeds of the test the force
+/// does not fall by more than 5 %
+std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points);
 
 /// How many values are different, where those within 2 % of the least of their group count as one.
 /// Assumed: 2 %, more than a machine misses its set value by, less than the steps of a test

@@ -223,14 +223,82 @@ TEST_CASE("loads and forces that are both in lbf are doubted aloud", "[fast]") {
 
 TEST_CASE("points that were copied are doubted aloud, a few that agree by chance are not", "[fast]") {
   std::vector<RollingPoint> points = make_points();
-  points.push_back(points.front());
+  points[3].force_N = 20.4;  // N, as a coarse display shows it
+  points.push_back(points[3]);
   CHECK(estimation::doubt_points(points).empty());
+  points[3].force_N = points.back().force_N = 20.4137;  // no two readings agree in six digits
+  REQUIRE(estimation::doubt_points(points).size() == 1);
+  CHECK_THAT(estimation::doubt_points(points)[0], Catch::Contains("1 of 25 points"));
   points = make_points();
   const std::vector<RollingPoint> copies = points;
   points.insert(points.end(), copies.begin(), copies.end());
   REQUIRE(estimation::doubt_points(points).size() == 1);
   CHECK_THAT(estimation::doubt_points(points)[0],
              Catch::Contains(std::to_string(copies.size()) + " of " + std::to_string(points.size())));
+}
+
+TEST_CASE("pressures in psi, of cars and trucks, are doubted aloud by the area of contact", "[fast]") {
+  std::vector<RollingPoint> points = make_points();
+  for (RollingPoint& point : points) point.pressure_Pa /= 6.895;
+  REQUIRE(!estimation::doubt_points(points).empty());
+  CHECK_THAT(estimation::doubt_points(points)[0], Catch::Contains("psi"));
+  points.clear();
+  for (const double load_N : {6000.0, 18000.0, 27000.0}) {
+    for (const double pressure_kPa : {720.0, 900.0}) points.push_back(make_point(80.0, load_N, pressure_kPa));
+  }
+  CHECK(estimation::doubt_points(points).empty());
+  for (RollingPoint& point : points) point.pressure_Pa /= 6.895;
+  REQUIRE(estimation::doubt_points(points).size() == 1);
+  for (RollingPoint& point : points) {
+    point.pressure_Pa *= 6.895;
+    point.load_N /= 4.448;
+    point.force_N /= 4.448;
+  }
+  REQUIRE(estimation::doubt_points(points).size() == 1);
+  CHECK_THAT(estimation::doubt_points(points)[0], Catch::Contains("lbf or kg"));
+}
+
+TEST_CASE("values that stand in the wrong rows are doubted, whatever law is fitted", "[fast]") {
+  const auto exchange = [](double RollingPoint::*member, std::vector<RollingPoint> points, double sum) {
+    for (RollingPoint& point : points) point.*member = sum - point.*member;
+    return estimation::doubt_trends(points);
+  };
+  std::vector<RollingPoint> points;  // of SAE J1269: one speed
+  for (const double load_N : {3000.0, 4200.0, 5400.0}) {
+    for (const double pressure_kPa : {210.0, 310.0}) points.push_back(make_point(80.0, load_N, pressure_kPa));
+  }
+  CHECK(estimation::doubt_trends(points).empty());
+  const auto pressures = exchange(&RollingPoint::pressure_Pa, points, 520e3);
+  REQUIRE(pressures.size() == 1);
+  CHECK_THAT(pressures[0], Catch::Contains("rises with pressure"));
+  const auto loads = exchange(&RollingPoint::load_N, points, 8400.0);
+  REQUIRE(loads.size() == 1);
+  CHECK_THAT(loads[0], Catch::Contains("are loads exchanged"));
+  CHECK(estimation::doubt_trends(make_points()).empty());
+  const auto speeds = exchange(&RollingPoint::speed_m_s, make_points(), 130.0 / 3.6);
+  REQUIRE(speeds.size() == 1);
+  CHECK_THAT(speeds[0], Catch::Contains("Are the speeds in the order of the points?"));
+  points.resize(2);
+  CHECK(estimation::doubt_trends(points).empty());  // they do not decide it
+}
+
+TEST_CASE("a point that the law misses is named by its line", "[fast]") {
+  std::vector<RollingPoint> points = make_points();
+  points[7].force_N *= 1.3;
+  points[7].line = 9;
+  const estimation::J2452Fit fit = estimation::fit_j2452(points);
+  REQUIRE(fit.warnings.size() == 1);
+  CHECK_THAT(fit.warnings[0], Catch::Contains("the law misses line 9 (95 km/h, 4000 N, 200 kPa) by"));
+}
+
+TEST_CASE("where repeated points are copies, the test of lack of fit does not say that none is repeated", "[fast]") {
+  std::vector<RollingPoint> points = make_points();
+  const std::vector<RollingPoint> copies = points;
+  points.insert(points.end(), copies.begin(), copies.end());
+  const estimation::RegressionStatistics statistics = estimation::fit_j2452(points).statistics;
+  CHECK_FALSE(statistics.lack_of_fit.has_value());
+  CHECK_THAT(estimation::explain_no_lack_of_fit(statistics.repeated_points), Catch::Contains("do not scatter"));
+  CHECK_THAT(estimation::explain_no_lack_of_fit(0), Catch::Contains("no points are repeated"));
 }
 
 TEST_CASE("a multipoint law: exact points, and least squares by pressure", "[fast]") {
