@@ -182,6 +182,28 @@ RoadLoad evaluate_road_load(const std::string& file, const RoadLoadProcedureOpti
   return result;
 }
 
+namespace {
+
+/// Of a default road load, which is for M1 and N1: what is said of any, and what does not fit the mass.
+std::vector<std::string> list_default_warnings(const DefaultRoadLoadOptions& options) {
+  constexpr double kMost_kg = 4250.0;        // N1 with an alternative fuel; 3500 otherwise
+  constexpr double kLeastOfTruck_kg = 3500.0;  // N2 and M3 begin there
+  std::vector<std::string> warnings{
+      "a default road load is no measurement: it is meant to be above that of most vehicles of such a size"};
+  if (options.mass_kg > kMost_kg) {
+    warnings.push_back(fmt::format(
+        "a test mass of {:g} kg: the WLTP and its default road load are for vehicles up to 3500 kg (M1, N1)",
+        options.mass_kg));
+  }
+  if (options.tire_class == "C3" && options.mass_kg < kLeastOfTruck_kg) {
+    warnings.push_back(fmt::format(
+        "tires of class C3 are those of trucks and buses: are they on a vehicle of {:g} kg?", options.mass_kg));
+  }
+  return warnings;
+}
+
+}  // namespace
+
 RoadLoad calc_default_road_load(const DefaultRoadLoadOptions& options) {
   require_valid(options);
   const Eigen::Vector3d load = estimation::calc_default_road_load(options.mass_kg, options.width_m, options.height_m);
@@ -202,8 +224,7 @@ RoadLoad calc_default_road_load(const DefaultRoadLoadOptions& options) {
     table.rows.push_back({fmt::format("f{}", i), fmt::format("{:.5g}", value), kUnits[i], fmt::format("{:.5g}", lbf)});
   }
   Table rolling;
-  result.warnings.push_back(
-      "a default road load is no measurement: it is meant to be above that of most vehicles of such a size");
+  result.warnings = list_default_warnings(options);
   if (!options.tire_class.empty()) {
     const estimation::RrcClass& at = estimation::find_rrc_class(options.tire_class, options.rrc_N_per_kN);
     const double force_N = 1e-3 * at.value_N_per_kN * kStandardGravity_m_s2 * options.mass_kg;

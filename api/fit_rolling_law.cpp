@@ -85,9 +85,10 @@ void warn_of_reference(const estimation::ReferenceCondition& at, bool has_speed,
   }
 }
 
-estimation::CycleForces read_cycles(const RollingLawOptions& options) {
-  const auto read = [](const std::string& name) {
+estimation::CycleForces read_cycles(const RollingLawOptions& options, std::vector<std::string>& warnings) {
+  const auto read = [&warnings](const std::string& name) {
     const scenarios::SpeedTrace trace = scenarios::read_speed_trace(name);
+    if (const auto doubt = scenarios::doubt_acceleration(trace)) warnings.push_back(*doubt);
     return estimation::calc_speed_moments(trace.time_s, trace.speed_m_s);
   };
   return {options.urban_cycle, options.highway_cycle, read(options.urban_cycle), read(options.highway_cycle)};
@@ -134,7 +135,7 @@ RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options, 
   std::optional<estimation::J2452Reference> reference;
   if (const auto at = find_reference(test)) {
     warn_of_reference(*at, true, test);
-    reference = estimation::evaluate_reference(fit, *at, read_cycles(options));
+    reference = estimation::evaluate_reference(fit, *at, read_cycles(options, test.warnings));
   }
   Json json = estimation::make_j2452_json(test, fit, reference);
   std::string tables = format_tables(report::make_j2452_tables(fit, reference));

@@ -81,6 +81,7 @@ struct VehicleBattery {
           p.charging_efficiency);
   }
 
+  bool is_recharge_measured() const { return recharge_J > 0.0; }
   double calc_recharge_J() const { return recharge_J > 0.0 ? recharge_J : usable_J / charging_efficiency; }
 };
 

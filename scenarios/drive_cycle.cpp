@@ -118,7 +118,9 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   const rigs::VehicleLayout layout = settings.conditions.make_layout(spec);
   Results results;
   results.wheels = describe_wheels(settings.conditions, layout);
-  results.cycle = read_speed_trace(settings.cycle.value).name;
+  const SpeedTrace trace = read_speed_trace(settings.cycle.value);
+  results.cycle = trace.name;
+  if (const auto doubt = doubt_acceleration(trace)) outcome.warnings.push_back(*doubt);
   for (std::size_t i = 0; i < outcome.recording.phases.size(); ++i) {
     if (outcome.recording.phases[i].name.rfind("cycle", 0) != 0) continue;
     results.sections.push_back(evaluate_section(spec, layout, outcome.recording, i));

@@ -37,7 +37,8 @@ double calc_rolling_share(const models::RoadLoad<double>& load, double mass_kg) 
 }
 
 std::vector<std::string> doubt_road_load(const models::RoadLoad<double>& load, double mass_kg, double top_speed_m_s) {
-  constexpr double kLeastRolling = 0.0015, kMostRolling = 0.03;  // Assumed: far from those of cars
+  constexpr double kLeastRolling = 0.0025;  // Assumed: the best tires have 0.004; a car's loss in lbf is below it
+  constexpr double kMostRolling = 0.03;     // Assumed: far from that of cars
   constexpr double kLeast_m2 = 0.15;  // Assumed: a velomobile has less, the slimmest cars 0.4
   constexpr double kMost_m2 = 15.0;   // Assumed: trucks with a trailer have up to 10
   const double rolling = calc_rolling_share(load, mass_kg);

@@ -67,6 +67,22 @@ void warn_of_end(double usable_J, double all_J, double needed_s, Outcome& outcom
                   all_J / kJ_per_kWh, usable_J / kJ_per_kWh, needed_s / 60.0));
 }
 
+/// Where the recharge energy is from: a charge, or an assumption.
+std::string describe_recharge(const rigs::VehicleBattery& battery) {
+  if (battery.is_recharge_measured()) return "recharge_energy_kWh";
+  return fmt::format("assumed: charging_efficiency = {:g}", battery.charging_efficiency);
+}
+
+void warn_of_charge(const rigs::VehicleBattery& battery, Outcome& outcome) {
+  constexpr double kLeast = 0.7;  // Assumed: chargers and batteries give 0.8 to 0.95 of it back
+  const double efficiency = battery.usable_J / battery.calc_recharge_J();
+  if (efficiency >= kLeast) return;
+  outcome.warnings.push_back(fmt::format(
+      "the battery gives back {:.0f} % of its recharge energy, {:.1f} of {:.1f} kWh, where charges give back 80 to "
+      "95 %: are usable_energy_kWh and recharge_energy_kWh right?",
+      1e2 * efficiency, battery.usable_J / kJ_per_kWh, battery.calc_recharge_J() / kJ_per_kWh));
+}
+
 ColdExcess find_cold_excess(const std::vector<DriveSection>& city) {
   std::vector<CycleLoss> cycles;
   for (const DriveSection& section : city) {
@@ -115,6 +131,11 @@ void EconomyResults::visit(ResultSheet& visit) const {
   visit(Result{"recharge_energy_kWh", "Recharge energy", ".3f", "alternating current for the charge after the test"}
             .or_left_out(),
         recharge_J);
+  visit(Result{"recharge_energy_from", "  from", "",
+               "recharge_energy_kWh of the vehicle's file, else charging_efficiency, which is assumed and no measured "
+               "charge"}
+            .or_left_out(),
+        recharge_from);
   visit(Result{"end_needed_min", "End section to empty", ".1f", "its length with which the battery were empty; about"}
             .or_left_out(),
         end_needed_s);
@@ -159,6 +180,12 @@ EconomyResults evaluate_economy(const RunSpec& spec, const rigs::VehicleLayout& 
     results.end_needed_s =
         end.duration_s + (charge.usable_J - all_J) / find_steady_battery_W(spec, layout, outcome.recording, end.name);
     warn_of_end(charge.usable_J, all_J, *results.end_needed_s, outcome);
+    warn_of_charge(*vehicle.battery, outcome);
+    results.recharge_from = describe_recharge(*vehicle.battery);
+  } else {
+    outcome.warnings.push_back(
+        "the vehicle has no [battery]: range and label range take what the sections used as its usable energy, and so "
+        "follow from their lengths (mid_min, end_min)");
   }
   const std::vector<DriveSection> city = list_sections(sections, "city");
   const MultiCycleEconomy economy =

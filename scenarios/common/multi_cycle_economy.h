@@ -23,6 +23,7 @@ struct EconomyResults {
   std::optional<double> usable_J;
   std::optional<std::string> usable_from;  // "battery" or "sections"
   std::optional<double> recharge_J;
+  std::optional<std::string> recharge_from;  // "recharge_energy_kWh", or the charging efficiency
   std::optional<double> first_city_weight;
   std::optional<double> end_needed_s;  // end section that would empty the battery
   std::optional<ColdExcess> cold;
@@ -34,7 +35,8 @@ struct EconomyResults {
 };
 
 /// Phase scaling, ranges and the excess of the first city section. The usable energy is that of the vehicle's battery,
-/// or what all sections took. Warns where the battery is not empty at the end. Throws InputError where the battery is
+/// or what all sections took. Warns where the battery is not empty at the end, or there is none, and of a charge that
+/// loses much. Throws InputError where the battery is
 /// empty before the last section.
 EconomyResults evaluate_economy(const RunSpec& spec, const rigs::VehicleLayout& layout,
                                 const std::vector<DriveSection>& sections, double label_factor, Outcome& outcome);

@@ -1,6 +1,7 @@
 #pragma once
 /// Drive cycles: assets/cycles/<name>.csv, a speed trace with straight lines between its rows.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct SpeedTrace {
 
 /// Distance of a speed with straight lines between its times.
 double calc_distance_m(const std::vector<double>& time_s, const std::vector<double>& speed_m_s);
+
+/// A question about times or speeds where a cycle asks for more than any car does, such as minutes read as seconds.
+/// Assumed: 10 m/s2; the cycles of the assets have 3.8 at most
+std::optional<std::string> doubt_acceleration(const SpeedTrace& trace);
 
 /// Reads a cycle by name or path. Throws InputError.
 SpeedTrace read_speed_trace(const std::string& name_or_path);

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <optional>
 
+#include "estimation/road_load/road_load_doubts.h"
 #include "scenarios/run/run_spec.h"
 #include "scenarios/run/scenario.h"
 #include "scenarios/run/tire_validity.h"
@@ -43,6 +44,16 @@ void warn_of_tires(const RunSpec& spec, Outcome& outcome) {
   }
 }
 
+/// The road load of a vehicle's file is held against its mass, as one that is fitted.
+void warn_of_road_load(const RunSpec& spec, Outcome& outcome) {
+  if (!spec.vehicle.has_value() || !spec.vehicle->road_load.has_value()) return;
+  constexpr double kNoTop_m_s = 1e3;  // a file has no data whose speeds end
+  const double mass_kg = spec.vehicle->body.mass_kg;
+  for (const std::string& doubt : estimation::doubt_road_load(*spec.vehicle->road_load, mass_kg, kNoTop_m_s)) {
+    outcome.warnings.push_back("[road_load] of vehicle '" + spec.vehicle->name + "': " + doubt);
+  }
+}
+
 }  // namespace
 
 PreparedRun prepare_run(const RunSpec& spec) {
@@ -51,6 +62,7 @@ PreparedRun prepare_run(const RunSpec& spec) {
       Outcome outcome = run(progress);
       require_loss(list_tires(spec), outcome.recording);
       warn_of_tires(spec, outcome);
+      warn_of_road_load(spec, outcome);
       return outcome;
     } catch (const RunFailure& failure) {
       if (spec.effects.empty()) throw;

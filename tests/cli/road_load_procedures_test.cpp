@@ -189,6 +189,11 @@ TEST_CASE("fit default-road-load: coefficients, class of a tire, what it is not"
   REQUIRE(run.status == 0);
   CHECK(longest_line(run.out) <= 80);
   CHECK_THAT(run.out, Contains("210") && Contains("0.0501") && Contains("7.1 N/kN") && Contains("no measurement"));
+  const auto heavy = run_program("fit default-road-load --mass 40000 --width 2.5 --height 4", folder.path());
+  CHECK_THAT(heavy.out, Catch::Contains("up to 3500 kg"));
+  const auto truck_tires = run_program(
+      "fit default-road-load --mass 1500 --width 1.8 --height 1.5 --tire-class C3 --rrc 5.5", folder.path());
+  CHECK_THAT(truck_tires.out, Catch::Contains("tires of class C3"));
   const auto json = run_program("fit default-road-load --mass 1500 --width 1.8 --height 1.5 --json -", folder.path());
   CHECK(Json::parse(json.out)["f1_N_per_km_h"] == 0.0);
   CHECK_THAT(

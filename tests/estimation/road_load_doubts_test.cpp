@@ -40,6 +40,13 @@ TEST_CASE("a rolling loss or a drag area that no road vehicle has is doubted", "
   CHECK(doubt_road_load({9000.0, 0.0, 12.0}, kCarMass_kg, kCarTop_m_s).size() == 2);
 }
 
+TEST_CASE("a road load in lbf is one that no car has", "[fast]") {
+  const auto doubts = doubt_road_load({33.2, -0.0857 * 3.6, 0.02006 * 12.96}, 1928.0, 1e3);  // lbf, mph of an EX30
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Contains("rolling loss at 50 km/h is 0.0015"));
+  CHECK(doubt_road_load({147.68, -0.23687 * 3.6, 0.034452 * 12.96}, 1928.0, 1e3).empty());
+}
+
 TEST_CASE("the fit without a method doubts speeds in mph if it has a mass", "[fast]") {
   tests::CoastdownStudy study;
   study.load = kCar;

@@ -102,6 +102,16 @@ TEST_CASE("WLTC class 3b: its phases have the check sums, lengths and top speeds
   }
 }
 
+TEST_CASE("a cycle whose times are in minutes is doubted, the shipped ones are not", "[fast]") {
+  for (const char* name : {"udds", "hwfet", "us06", "wltc_class3b"}) {
+    INFO(name);
+    SpeedTrace trace = read_speed_trace(name);
+    CHECK_FALSE(scenarios::doubt_acceleration(trace).has_value());
+    for (double& time_s : trace.time_s) time_s /= 60.0;
+    CHECK(scenarios::doubt_acceleration(trace).has_value());
+  }
+}
+
 TEST_CASE("without friction brakes the hubs give what the road load takes over the cycle", "[fast]") {
   for (const char* cycle : {"wltc_class3b", "us06"}) {
     INFO(cycle);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -147,7 +148,10 @@ TEST_CASE("where only the tires warm up they explain the first section, beside a
 
 TEST_CASE("without a battery the test takes all of it, with one, its own energy scales the phases", "[fast]") {
   scenarios::RunSpec spec = make_j1634({"mid_min=5", "end_min=60"});
-  const Json without = scenarios::run_scenario(spec, {}).result;
+  const scenarios::Outcome by_sections = scenarios::run_scenario(spec, {});
+  REQUIRE(by_sections.warnings.size() == 1);
+  CHECK(by_sections.warnings[0].find("the vehicle has no [battery]") != std::string::npos);
+  const Json& without = by_sections.result;
   double all_Wh = 0.0;
   for (const Json& section : without["sections"]) all_Wh += number_of(section, "battery_energy_Wh");
   CHECK(number_of(without, "usable_energy_kWh") == Approx(1e-3 * all_Wh));
@@ -161,6 +165,7 @@ TEST_CASE("without a battery the test takes all of it, with one, its own energy 
   CHECK(with["sections"] == without["sections"]);
   CHECK(with["usable_energy_from"] == "battery");
   CHECK(number_of(with, "recharge_energy_kWh") == Approx(75.0));
+  CHECK(with["recharge_energy_from"] == "assumed: charging_efficiency = 0.8");
   for (const Json& cycle : with["economy"]) {
     INFO(cycle["name"]);
     CHECK(number_of(cycle, "ac_consumption_Wh_per_km") == Approx(number_of(cycle, "dc_consumption_Wh_per_km") / 0.8));
@@ -178,6 +183,37 @@ TEST_CASE("without a battery the test takes all of it, with one, its own energy 
   for (const Json& section : emptied.result["sections"]) all_Wh += number_of(section, "battery_energy_Wh");
   CHECK(all_Wh == Approx(60e3).epsilon(0.002));
   CHECK(emptied.warnings.empty());
+}
+
+TEST_CASE("a charge that loses much is doubted, and one that was measured is called so", "[fast]") {
+  scenarios::RunSpec spec = make_j1634({"mid_min=5", "end_min=60"});
+  spec.vehicle->battery = rigs::VehicleBattery{60.0 * kWh, 68.0 * kWh, 0.9};
+  const auto find_doubt = [&spec] {
+    const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+    CHECK(outcome.result["recharge_energy_from"] == "recharge_energy_kWh");
+    return std::any_of(outcome.warnings.begin(), outcome.warnings.end(), [](const std::string& warning) {
+      return warning.find("of its recharge energy") != std::string::npos;
+    });
+  };
+  CHECK_FALSE(find_doubt());
+  spec.vehicle->battery->recharge_J = 168.0 * kWh;
+  CHECK(find_doubt());
+}
+
+TEST_CASE("a road load in lbf of a vehicle's file is doubted", "[fast]") {
+  scenarios::RunSpec spec = tests::make_spec("drive_cycle", "a50", {"cycle=us06"}, "quasi_static");
+  spec.vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", "volvo_ex30")));
+  const auto has_doubt = [&spec] {
+    const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+    return std::any_of(outcome.warnings.begin(), outcome.warnings.end(), [](const std::string& warning) {
+      return warning.find("[road_load] of vehicle") != std::string::npos;
+    });
+  };
+  CHECK_FALSE(has_doubt());
+  constexpr double kLbf_N = 4.4482216;
+  auto& load = *spec.vehicle->road_load;
+  load = {load.A_N / kLbf_N, load.B_N_s_per_m / kLbf_N * 1.609344, load.C_N_s2_per_m2 / kLbf_N * 1.609344 * 1.609344};
+  CHECK(has_doubt());
 }
 
 TEST_CASE("the order of the source has no phase scaling", "[fast]") {
