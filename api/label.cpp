@@ -6,6 +6,7 @@
 #include <boost/algorithm/string/case_conv.hpp>
 #include <cmath>
 
+#include "api/declared_rrc.h"
 #include "models/tire/label_class.h"
 #include "models/tire/tire_file.h"
 #include "scenarios/scaffold/iso_test.h"
@@ -19,24 +20,6 @@ namespace rollrig {
 namespace {
 
 constexpr double kRatioPer_N_per_kN = 1e-3;  // N/N in one N/kN
-
-/// Refuses a coefficient that no tire has, and says which unit it may be in.
-void require_tire_rrc(double rrc_N_per_kN) {
-  const double rrc = rrc_N_per_kN * kRatioPer_N_per_kN;
-  if (rrc >= models::kLowestTireRrc && rrc <= models::kHighestTireRrc) return;
-  std::string hint;
-  for (const auto& [factor, unit] : {std::pair{1e3, "N/N"}, std::pair{10.0, "percent"}, std::pair{0.1, "0.1 N/kN"}}) {
-    const double in_unit = rrc * factor;
-    if (hint.empty() && in_unit >= models::kLowestTireRrc && in_unit <= models::kHighestTireRrc) {
-      hint = fmt::format("; {:g} in {} is {:g} N/kN", rrc_N_per_kN, unit, in_unit / kRatioPer_N_per_kN);
-    }
-  }
-  throw InputError({fmt::format("no tire has an RRc of {:g} N/kN", rrc_N_per_kN), "command line", 0, "--rrc",
-                    fmt::format("{:g}", rrc_N_per_kN),
-                    fmt::format("{:g} to {:g} N/kN, which is kg/t{}", models::kLowestTireRrc / kRatioPer_N_per_kN,
-                                models::kHighestTireRrc / kRatioPer_N_per_kN, hint),
-                    ""});
-}
 
 models::TireClass read_label_class(const std::string& name) {
   if (const auto found = models::find_class_named(boost::algorithm::to_upper_copy(name))) return *found;
@@ -99,12 +82,30 @@ models::ServiceDescription find_label_service(const LabelInput& input, const std
   return service;
 }
 
-double find_label_rrc(const LabelInput& input, const std::optional<models::TireFile>& tire) {
-  if (input.rrc_N_per_kN.has_value()) {
-    require_tire_rrc(*input.rrc_N_per_kN);
-    return *input.rrc_N_per_kN * kRatioPer_N_per_kN;
+/// The tire with the marks that its label goes by. A file without [service_description] does not say whether the tire
+/// is reinforced: its pressure does.
+models::TireFile with_service(models::TireFile tire, models::ServiceDescription service) {
+  const bool is_car = service.tire_class == models::TireClass::kC1;
+  if (!tire.service.has_value() && is_car && tire.iso_28580.has_value()) {
+    constexpr double kBetweenBoth_Pa = 230e3;  // 210 kPa, reinforced 250 kPa
+    service.is_reinforced = tire.iso_28580->pressure_Pa > kBetweenBoth_Pa;
   }
-  if (tire.has_value()) return scenarios::simulate_iso_rrc(*tire);
+  tire.service = service;
+  return tire;
+}
+
+/// The RRc that is given, else that of the simulated test, whose warnings are added.
+double find_label_rrc(const LabelInput& input, const std::optional<models::TireFile>& tire,
+                      const models::ServiceDescription& service, std::vector<std::string>& warnings) {
+  if (input.rrc_N_per_kN.has_value()) {
+    if (tire.has_value()) warnings = tire->list_class_doubts();
+    return read_declared_rrc(*input.rrc_N_per_kN);
+  }
+  if (tire.has_value()) {
+    const scenarios::StatedIsoTest test = scenarios::simulate_stated_iso_test(with_service(*tire, service));
+    warnings = test.warnings;
+    return test.rrc;
+  }
   throw InputError({"neither an RRc nor a tire is given", "command line", 0, "--rrc", "",
                     "--rrc NUMBER in N/kN, or --tire NAME", ""});
 }
@@ -197,11 +198,9 @@ TireLabel make_label(const LabelInput& input) {
   if (!input.tire.empty()) tire = models::read_tire(read_config(find_asset("tires", input.tire)));
   const models::ServiceDescription service = find_label_service(input, tire);
   TireLabel label;
-  const double rrc = find_label_rrc(input, tire);
+  const double rrc = find_label_rrc(input, tire, service, label.warnings);
   fill_label(service, rrc, find_label_rrc_sd(input, service.tire_class), label);
-  if (tire.has_value()) {
-    label.warnings = tire->list_class_doubts();
-  } else if (service.tire_class == models::TireClass::kC1 && service.is_heavy()) {
+  if (!tire.has_value() && service.tire_class == models::TireClass::kC1 && service.is_heavy()) {
     label.warnings.push_back(
         fmt::format("load index {} is above that of passenger car tires: is the class C3?", service.load_index));
   }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "api/declared_rrc.h"
 #include "exports/vecto_tire.h"
 #include "models/tire/label_class.h"
 #include "models/tire/tire_file.h"
@@ -26,15 +27,16 @@ std::string make_vecto_id(const std::string& name) {
   return id;
 }
 
-double find_declared_rrc(const VectoTireInput& input, const models::TireFile& tire) {
-  if (!input.rrc_N_per_kN.has_value()) return models::round_declared_rrc(scenarios::simulate_iso_rrc(tire));
-  const double rrc = *input.rrc_N_per_kN * 1e-3;
-  if (rrc >= models::kLowestTireRrc && rrc <= models::kHighestTireRrc) return models::round_declared_rrc(rrc);
-  throw InputError(
-      {fmt::format("no tire has an RRc of {:g} N/kN", *input.rrc_N_per_kN), "command line", 0, "--rrc",
-       fmt::format("{:g}", *input.rrc_N_per_kN),
-       fmt::format("{:g} to {:g} N/kN, which is kg/t", 1e3 * models::kLowestTireRrc, 1e3 * models::kHighestTireRrc),
-       ""});
+/// The RRc to declare: the given one, else that of the simulated test, whose warnings are added.
+double find_declared_rrc(const VectoTireInput& input, const models::TireFile& tire,
+                         std::vector<std::string>& warnings) {
+  if (input.rrc_N_per_kN.has_value()) {
+    warnings = tire.list_class_doubts();
+    return models::round_declared_rrc(read_declared_rrc(*input.rrc_N_per_kN));
+  }
+  const scenarios::StatedIsoTest test = scenarios::simulate_stated_iso_test(tire);
+  warnings = test.warnings;
+  return models::round_declared_rrc(test.rrc);
 }
 
 std::string without_spaces(const std::string& text) { return boost::algorithm::erase_all_copy(text, " "); }
@@ -50,6 +52,14 @@ std::string find_vecto_dimension(const VectoTireInput& input, const models::Tire
   throw InputError({fmt::format("VECTO has no tire size '{}'", dimension), "command line", 0, "--dimension", dimension,
                     "a size of Regulation (EU) 2017/2400, Annex I, for trucks, buses and vans, such as 315/80 R22.5",
                     nearest_name(dimension, known)});
+}
+
+/// A question where the size is not that of the tire, whose designation may go on with load index and speed symbol.
+std::optional<std::string> doubt_dimension(const std::string& dimension, const models::TireFile& tire) {
+  const std::string own = without_spaces(tire.designation);
+  if (own.empty() || own.rfind(without_spaces(dimension), 0) == 0) return std::nullopt;
+  return fmt::format("--dimension {} is not the size of tire '{}', which is {}: is it the right tire?", dimension,
+                     tire.name, tire.designation);
 }
 
 /// Throws InputError where a date does not look as the schema has it; whether there is such a day, the schema says.
@@ -89,13 +99,13 @@ VectoTireFile make_vecto_tire(const VectoTireInput& input) {
   require_vecto_date(component.date);
   component.app_version = fmt::format("rollrig {}", ROLLRIG_VERSION);
   component.dimension = find_vecto_dimension(input, tire);
-  component.rrc = find_declared_rrc(input, tire);
-  component.load_N = static_cast<int>(std::lround(tire.iso_28580->load_N));
   VectoTireFile made;
+  component.rrc = find_declared_rrc(input, tire, made.warnings);
+  component.load_N = static_cast<int>(std::lround(tire.iso_28580->load_N));
   made.xml = exports::make_vecto_xml(component);
   made.rrc = component.rrc;
   made.load_N = component.load_N;
-  made.warnings = tire.list_class_doubts();
+  if (const auto doubt = doubt_dimension(component.dimension, tire)) made.warnings.push_back(*doubt);
   if (tire.service.has_value()) {
     const auto doubt = models::doubt_class_by_rrc(tire.service->tire_class, made.rrc, tire.service->is_severe_snow);
     if (doubt.has_value()) made.warnings.push_back(*doubt);

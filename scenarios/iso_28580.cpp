@@ -9,6 +9,7 @@
 #include "scenarios/common/iso_methods.h"
 #include "scenarios/common/iso_uncertainty.h"
 #include "scenarios/common/readings.h"
+#include "scenarios/common/settling.h"
 
 namespace rollrig::scenarios::iso_28580 {
 
@@ -54,6 +55,7 @@ constexpr double kTooShort = 0.02;
 
 struct Results {
   Cycle cycle;  // the measurement: the last cycle, which is the warm-up's own end when no measurement cycle follows
+  std::optional<double> unsettled;  // how far its loss is above that in steady state, see SettlingTest
   std::string method;
   std::vector<MethodResult> methods;
   double corrected_rrc = 0.0;
@@ -124,11 +126,9 @@ struct Results {
 
   /// Of a tire that has not settled, how far its value is from that in steady state.
   std::string describe_unsettled() const {
-    if (cycle.is_settling_unknown) return " The tire has not settled: its value in steady state is not known.";
-    const double unsettled = cycle.unsettled.value_or(0.0);
-    if (std::abs(unsettled) <= kTooShort) return "";
-    return fmt::format(" The tire has not settled: RRc is {:.1f} % {} that in steady state.", 1e2 * std::abs(unsettled),
-                       unsettled > 0.0 ? "above" : "below");
+    if (!unsettled.has_value() || std::abs(*unsettled) <= kTooShort) return "";
+    return fmt::format(" The tire has not settled: RRc is {:.1f} % {} that in steady state.",
+                       1e2 * std::abs(*unsettled), *unsettled > 0.0 ? "above" : "below");
   }
 
   void visit_headlines(ResultSheet& visit) const {
@@ -172,6 +172,9 @@ struct Results {
     visit(Result{"label_class", "", "", "class of the EU label, A to E, of a tire with [service_description]"}
               .or_left_out(),
           label_class);
+    visit(Result{"why_no_label", "", "", "why a tire with [service_description] has no class: what is not standard"}
+              .or_left_out(),
+          why_no_label.empty() ? std::nullopt : std::optional(why_no_label));
     visit(Result{"label_probability", "", ".3f",
                  "probability that the RRc is in this class, by the uncertainty of the torque sensor"}
               .or_left_out(),
@@ -216,6 +219,16 @@ void put_repeatability(const std::vector<Cycle>& cycles, Results& results) {
   for (std::size_t i = 1; i < cycles.size(); ++i) squares += (cycles[i].rrc - mean) * (cycles[i].rrc - mean);
   results.mean_rrc = mean;
   if (count > 1.0) results.rrc_sd = std::sqrt(squares / (count - 1.0));
+}
+
+/// How far the loss of the measurement is above that in steady state, by the torque method, which adds no coasts.
+std::optional<double> find_unsettled(Settings settings, const RunSpec& spec) {
+  settings.method.value = kTorqueMethod;
+  Settings held = settings;
+  held.measurement_cycles = 0;
+  held.warm_up_s = kHeld_s;
+  const SettlingTest settling = simulate_settling(settings, held, spec, &plan);
+  return settling.find_unsettled(static_cast<std::size_t>(settings.measurement_cycles), 0);
 }
 
 /// The pressure after the check, against what was set: the standard asks to verify it.
@@ -274,19 +287,28 @@ std::vector<Cycle> find_test_cycles(const Settings& settings, const RunSpec& spe
   return cycles;
 }
 
-/// Where a test differs from the one that the label is defined by; empty where it does not.
-/// Source  UN R117 Annex 6: drum of 1.7 m at least, air of 20 to 30 degC; second-hand
+/// Where a test differs from the one that the label is defined by; empty where it does not. A load index of 0 is one
+/// that is not known.
+/// Source  UN R117 Annex 6: drum of 1.7 m at least, its surface as warm as the air, air of 20 to 30 degC; second-hand.
+///         The last minute is averaged: §3.2.7
 std::string find_other_condition(const Settings& settings, const RunSpec& spec, const models::IsoTestOfClass& asked) {
   constexpr double kSame = 0.01;  // Assumed: files round
   constexpr double kLeastDiameter_m = 1.7;
+  constexpr double kSurfaceTolerance_K = 5.0;  // Assumed: changes RRc by some 1 %
+  constexpr double kLongestWindow_s = 60.0;
   if (!models::is_drum(spec.rig.kind->traits)) return "machine";
   if (spec.rig.drum.diameter_m < kLeastDiameter_m * (1.0 - kSame)) return "drum's diameter";
   const auto differs = [](double is, double wanted) { return std::abs(is / wanted - 1.0) > kSame; };
   const DrumConditions& conditions = settings.conditions;
-  if (differs(*conditions.load_N, asked.load_N)) return "load";
+  if (spec.tire.service->load_index != 0 && differs(*conditions.load_N, asked.load_N)) return "load";
   if (asked.pressure_Pa.has_value() && differs(*conditions.pressure_Pa, *asked.pressure_Pa)) return "pressure";
   if (differs(conditions.speed_m_s, asked.speed_m_s)) return "speed";
   if (!models::is_ambient_correction_valid(*conditions.ambient_K)) return "ambient temperature";
+  if (conditions.surface_K.has_value() &&
+      std::abs(*conditions.surface_K - *conditions.ambient_K) > kSurfaceTolerance_K) {
+    return "drum's surface temperature";
+  }
+  if (conditions.window_s > kLongestWindow_s * (1.0 + kSame)) return "averaging window (window_s)";
   if (conditions.soak_s < asked.soak_s * (1.0 - kSame)) return "soak";
   if (*settings.warm_up_s < asked.warm_up_s * (1.0 - kSame)) return "warm-up";
   // The last cycle is the measurement, and the tire has cooled down in the skim test before it.
@@ -338,17 +360,12 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     results.cycles = cycles;
   }
   if (spec.tire.iso_28580.has_value()) results.tire_file_rrc = spec.tire.iso_28580->rrc;
-  const char* const duration =
-      settings.measurement_cycles > 0 ? "the measurement (measurement_min)" : "the warm-up (warm_up_min)";
-  if (results.cycle.is_settling_unknown) {
-    outcome.warnings.push_back(
-        fmt::format("the tire still becomes warmer or colder, too far from steady state to say how far RRc is from it: "
-                    "{} is too short for this tire",
-                    duration));
-  } else if (std::abs(results.cycle.unsettled.value_or(0.0)) > kTooShort) {
-    outcome.warnings.push_back(
-        fmt::format("RRc is {:.1f} % away from that in steady state: {} is too short for this tire",
-                    1e2 * std::abs(*results.cycle.unsettled), duration));
+  results.unsettled = find_unsettled(settings, spec);
+  const char* const too_short = settings.measurement_cycles > 0
+                                    ? "the measurement (measurement_min) is too short for this tire"
+                                    : "the warm-up (warm_up_min) is too short for this tire";
+  if (const auto warning = warn_of_unsettled({results.unsettled}, kTooShort, too_short)) {
+    outcome.warnings.push_back(*warning);
   }
   for (const std::string& doubt : spec.tire.list_class_doubts()) outcome.warnings.push_back(doubt);
   if (!models::is_ambient_correction_valid(ambient_K)) {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "scenarios/common/drum_bench.h"
-#include "scenarios/common/readings.h"
+#include "scenarios/common/settling.h"
 
 namespace rollrig::scenarios::load_sweep {
 
@@ -71,8 +71,11 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   const std::vector<Cycle> all = find_cycles(outcome.recording, spec, settings.conditions);
   Results results;
   std::vector<double> load_N, loss_N, rrc;
+  Settings held = settings;
+  held.settle_s = kHeld_s;
+  const SettlingTest settling = simulate_settling(settings, held, spec, &plan);
   for (std::size_t i = 1; i < all.size(); i += 2) {  // of each load, the cycle after its warm-up cycle
-    results.cycles.push_back({all[i]});
+    results.cycles.push_back({all[i], settling.find_unsettled(i, i)});
     load_N.push_back(all[i].loaded.load_N);
     loss_N.push_back(all[i].rolling_resistance_N);
     rrc.push_back(all[i].rrc);

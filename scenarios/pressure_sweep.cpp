@@ -1,6 +1,6 @@
 /// Pressure sweep (§3.2.4.2): RRc at several cold pressures, each from a soaked tire.
 #include "scenarios/common/drum_bench.h"
-#include "scenarios/common/readings.h"
+#include "scenarios/common/settling.h"
 
 namespace rollrig::scenarios::pressure_sweep {
 
@@ -68,8 +68,11 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   Results results;
   std::vector<SteadyCycle> steady;
   std::vector<double> loss_N;
+  Settings held = settings;
+  held.settle_s = kHeld_s;
+  const SettlingTest settling = simulate_settling(settings, held, spec, &plan);
   for (const Cycle& cycle : find_cycles(outcome.recording, spec, settings.conditions)) {
-    steady.push_back({cycle});
+    steady.push_back({cycle, settling.find_unsettled(loss_N.size(), loss_N.size())});
     results.cycles.push_back({steady.back(), settings.pressures_Pa[loss_N.size()]});
     loss_N.push_back(cycle.rolling_resistance_N);
   }

@@ -2,6 +2,7 @@
 #include "estimation/rolling_law/j1269_fit.h"
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/multipoint.h"
+#include "scenarios/common/settling.h"
 
 namespace rollrig::scenarios::sae_j1269 {
 
@@ -31,11 +32,7 @@ struct MultipointStep {
 
   void visit(ResultSheet& visit) const {
     step.visit(visit);
-    visit(Result{"unsettled_percent", "unsettled", ".2f",
-                 "how far F_r is above that in steady state, extrapolated; absent where it does not settle",
-                 Column::kSecond}
-              .or_left_out(),
-          unsettled);
+    SteadyCycle::visit_unsettled(visit, unsettled);
   }
 };
 
@@ -100,10 +97,13 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   const std::vector<Cycle> cycles = find_cycles(outcome.recording, spec, settings.conditions);
   std::vector<SteadyCycle> steady;
   std::vector<estimation::RollingPoint> measured;
+  Settings held = settings;
+  held.settle_s = kHeld_s;
+  const SettlingTest settling = simulate_settling(settings, held, spec, &plan);
   for (std::size_t i = 0; i < cycles.size() && i < points.size(); ++i) {
-    results.steps.push_back({{cycles[i], points[i].pressure_Pa}, cycles[i].unsettled});
+    steady.push_back({cycles[i], settling.find_unsettled(i, i)});
+    results.steps.push_back({{cycles[i], points[i].pressure_Pa}, steady.back().unsettled});
     measured.push_back(results.steps.back().step.to_point());
-    steady.push_back({cycles[i]});
     results.mean_rrc += cycles[i].rrc / static_cast<double>(points.size());
   }
   if (const auto warning = warn_of_unsettled(steady)) outcome.warnings.push_back(*warning);

@@ -1,6 +1,6 @@
 /// Speed sweep (§3.2.5): RRc at several speeds, each from a soaked tire, with repeated measurement cycles.
 #include "scenarios/common/drum_bench.h"
-#include "scenarios/common/readings.h"
+#include "scenarios/common/settling.h"
 
 namespace rollrig::scenarios::speed_sweep {
 
@@ -64,16 +64,33 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   return program;
 }
 
+/// Of each speed, how far the mean of its measurement cycles is above steady state.
+void put_unsettled(const Settings& settings, const RunSpec& spec, std::vector<SteadyCycle>& cycles) {
+  Settings held = settings;
+  held.settle_s = kHeld_s;
+  held.measurement_cycles = 1;
+  const SettlingTest settling = simulate_settling(settings, held, spec, &plan);
+  const auto count = static_cast<std::size_t>(settings.measurement_cycles);
+  for (std::size_t speed = 0; speed < cycles.size(); ++speed) {
+    cycles[speed].unsettled = 0.0;
+    for (std::size_t i = 1; i <= count && cycles[speed].unsettled.has_value(); ++i) {
+      const auto one = settling.find_unsettled(speed * (count + 1) + i, 2 * speed + 1);
+      cycles[speed].unsettled = one.has_value() ? *cycles[speed].unsettled + *one / static_cast<double>(count) : one;
+    }
+  }
+}
+
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const std::vector<Cycle> all = find_cycles(outcome.recording, spec, settings.conditions);
   const auto cycles_a_speed = static_cast<std::ptrdiff_t>(settings.measurement_cycles + 1);
   Results results;
   for (auto first = all.begin(); all.end() - first >= cycles_a_speed; first += cycles_a_speed) {
-    results.cycles.push_back({average_cycles({first + 1, first + cycles_a_speed})});  // without the warm-up cycle
+    results.cycles.push_back({average_cycles({first + 1, first + cycles_a_speed}), {}});  // without the warm-up cycle
   }
   if (results.cycles.size() > 1) {
     results.rrc_rise = results.cycles.back().cycle.rrc / results.cycles.front().cycle.rrc - 1.0;
   }
+  put_unsettled(settings, spec, results.cycles);
   if (const auto warning = warn_of_unsettled(results.cycles)) outcome.warnings.push_back(*warning);
   return results;
 }

@@ -4,6 +4,7 @@
 
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <utility>
 
 namespace rollrig::models {
 namespace {
@@ -15,7 +16,28 @@ constexpr double kPerKilo = 1e-3;  // N/N in a N/kN
 /// How far a standard normal number lies below z.
 double calc_normal_share(double z) { return boost::math::cdf(boost::math::normal_distribution<double>(), z); }
 
+/// Where an RRc is below those of a class, the bound that it is below; else nothing.
+std::string compare_with_least(TireClass tire_class, double rrc) {
+  constexpr double kLeastShare = 0.6;
+  const double least = kLeastShare * list_label_bounds(tire_class).front();
+  if (rrc >= least) return "";
+  return fmt::format("below {:g} N/kN, {:g} times the upper bound of label class A", least / kPerKilo, kLeastShare);
+}
+
 }  // namespace
+
+std::optional<RrcMistake> find_rrc_mistake(double rrc) {
+  const auto is_of_a_tire = [](double one) { return one >= kLowestTireRrc && one <= kHighestTireRrc; };
+  if (is_of_a_tire(rrc)) return std::nullopt;
+  std::string hint;
+  for (const auto& [factor, unit] : {std::pair{1e3, "N/N"}, std::pair{10.0, "percent"}, std::pair{0.1, "0.1 N/kN"}}) {
+    if (!hint.empty() || !is_of_a_tire(rrc * factor)) continue;
+    hint = fmt::format("; {:g} in {} is {:g} N/kN", rrc / kPerKilo, unit, rrc * factor / kPerKilo);
+  }
+  return RrcMistake{fmt::format("no tire has an RRc of {:g} N/kN", rrc / kPerKilo),
+                    fmt::format("{:g} to {:g} N/kN, which is kg/t{}", kLowestTireRrc / kPerKilo,
+                                kHighestTireRrc / kPerKilo, hint)};
+}
 
 double round_declared_rrc(double rrc) { return std::floor(rrc / kStep + 0.5 + kSlack) * kStep; }
 
@@ -63,26 +85,23 @@ std::vector<RrcLimit> list_rrc_limits(TireClass tire_class, bool is_severe_snow)
 }
 
 std::optional<std::string> doubt_class_by_mean(TireClass tire_class, double mean_rrc) {
-  constexpr double kLeastShare = 0.6;
   const double most = list_rrc_limits(tire_class, false).front().rrc;
-  const double least = kLeastShare * list_label_bounds(tire_class).front();
-  if (mean_rrc >= least && mean_rrc <= most) return std::nullopt;
-  const std::string limit =
-      mean_rrc > most
-          ? fmt::format("above {:g} N/kN, the limit of UN R117, stage 1", most / kPerKilo)
-          : fmt::format("below {:g} N/kN, {:g} times the upper bound of label class A", least / kPerKilo, kLeastShare);
+  std::string limit = compare_with_least(tire_class, mean_rrc);
+  if (mean_rrc > most) limit = fmt::format("above {:g} N/kN, the limit of UN R117, stage 1", most / kPerKilo);
+  if (limit.empty()) return std::nullopt;
   return fmt::format("the tires of class {} have a mean RRC of {:.2f} N/kN, {}: is the class right?",
                      name_of(tire_class), mean_rrc / kPerKilo, limit);
 }
 
 std::optional<std::string> doubt_class_by_rrc(TireClass tire_class, double rrc, bool is_severe_snow) {
   constexpr double kMostShare = 1.5;
-  const double limit = list_rrc_limits(tire_class, is_severe_snow).front().rrc;
-  if (rrc <= kMostShare * limit) return std::nullopt;
-  return fmt::format(
-      "an RRc of {:.4g} N/kN is more than {:g} times the limit of UN R117, stage 1, for class {}, {:g} N/kN: is the "
-      "class right?",
-      rrc / kPerKilo, kMostShare, name_of(tire_class), limit / kPerKilo);
+  const double most = list_rrc_limits(tire_class, is_severe_snow).front().rrc;
+  std::string limit = compare_with_least(tire_class, rrc);
+  if (rrc > kMostShare * most) {
+    limit = fmt::format("more than {:g} times the limit of UN R117, stage 1, {:g} N/kN", kMostShare, most / kPerKilo);
+  }
+  if (limit.empty()) return std::nullopt;
+  return fmt::format("an RRc of {:.4g} N/kN is {}: is the class {} right?", rrc / kPerKilo, limit, name_of(tire_class));
 }
 
 double get_highest_laboratory_sd(TireClass tire_class) {

@@ -17,6 +17,13 @@ constexpr std::array<const char*, kLabelClassCount> kLabelClasses{"A", "B", "C",
 constexpr double kLowestTireRrc = 0.002;
 constexpr double kHighestTireRrc = 0.030;
 
+/// What is wrong with a coefficient that no tire has, and which unit it may be in.
+struct RrcMistake {
+  std::string what;
+  std::string allowed;
+};
+std::optional<RrcMistake> find_rrc_mistake(double rrc);
+
 /// An RRc [N/N] as it is declared: rounded to 0.1 N/kN, a half upwards.
 /// Source    ISO 80000-1, B.3, rule B, which Regulation (EU) 2017/2400, Annex X, 3.2 asks for
 double round_declared_rrc(double rrc);
@@ -52,7 +59,8 @@ std::vector<RrcLimit> list_rrc_limits(TireClass tire_class, bool is_severe_snow)
 /// between.
 std::optional<std::string> doubt_class_by_mean(TireClass tire_class, double mean_rrc);
 
-/// The same about one tire, whose RRc [N/N] is above 1.5 times the limit of stage 1. Assumed: 1.5
+/// The same about one tire, whose RRc [N/N] is above 1.5 times the limit of stage 1, or as low as a doubted mean.
+/// Assumed: 1.5
 std::optional<std::string> doubt_class_by_rrc(TireClass tire_class, double rrc, bool is_severe_snow);
 
 /// Standard deviation of repeated measurements that a laboratory may have at most [N/N]: 0.075 N/kN for C1 and C2, 0.06

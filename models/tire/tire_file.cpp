@@ -6,6 +6,7 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 
+#include "models/tire/label_class.h"
 #include "models/tire/tire_model.h"
 #include "sim/core/error.h"
 
@@ -148,6 +149,9 @@ void read_iso_28580(TableReader& file, TireFile& tire) {
     read_fields(reader, iso);
   }
   reader.finish();
+  if (const auto mistake = find_rrc_mistake(iso.rrc)) {
+    throw reader.problem("rrc_N_per_kN", mistake->what, mistake->allowed);
+  }
   tire.iso_28580 = iso;
 }
 
@@ -309,7 +313,18 @@ std::vector<std::string> TireFile::list_class_doubts() const {
           "class C1: a tire with load index {} is of class C3, unless it is of a passenger car", service->load_index));
     }
   }
+  // Assumed: 400 kPa. Truck tires carry their load at 500 kPa and more; their pressures in psi are 80 to 130
+  constexpr double kLeastOfTruck_Pa = 400e3;
+  const double pressure_Pa = service->maximum_load_pressure_Pa.value_or(kLeastOfTruck_Pa);
+  if (service->tire_class == TireClass::kC3 && pressure_Pa < kLeastOfTruck_Pa) {
+    doubts.push_back(
+        fmt::format("[service_description] maximum_load_pressure_kPa = {:g} is low for class C3: is it in psi?",
+                    pressure_Pa * 1e-3));
+  }
   if (!iso_28580.has_value()) return doubts;
+  if (const auto doubt = doubt_class_by_rrc(service->tire_class, iso_28580->rrc, service->is_severe_snow)) {
+    doubts.push_back("[iso_28580] rrc_N_per_kN: " + *doubt);
+  }
   constexpr double kSame = 0.01;  // Assumed: files round
   const IsoTestOfClass of_class = find_iso_test(*service, values.geometry.rim_diameter_m);
   const auto compare = [&](const char* key, double stated_SI, double asked_SI) {
@@ -318,7 +333,8 @@ std::vector<std::string> TireFile::list_class_doubts() const {
     doubts.push_back(fmt::format("[iso_28580] {} = {:.6g}, but the test of class {} asks for {:.6g} with load index {}",
                                  key, unit.from_si(stated_SI), name, unit.from_si(asked_SI), service->load_index));
   };
-  compare("load_N", iso_28580->load_N, of_class.load_N);
+  const bool is_index_known = service->load_index != 0;  // rollrig label may have none
+  if (is_index_known) compare("load_N", iso_28580->load_N, of_class.load_N);
   if (of_class.pressure_Pa.has_value()) compare("pressure_kPa", iso_28580->pressure_Pa, *of_class.pressure_Pa);
   compare("speed_km_h", iso_28580->speed_m_s, of_class.speed_m_s);
   compare("warm_up_min", iso_28580->warm_up_s, of_class.warm_up_s);

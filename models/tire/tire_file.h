@@ -152,7 +152,8 @@ struct TireFile {
   bool gives_uncertainty_of(bool heat_balance) const;
   /// A sentence for each number of the file that is not what the class of [service_description] asks for: load,
   /// pressure, speed, warm-up and K_t of [iso_28580]; class C1 above load index 121, or with a designation of
-  /// commercial vehicles ("C" at its end, "LT" before it). Empty without [service_description].
+  /// commercial vehicles ("C" at its end, "LT" before it); class C3 with a pressure of cars, which is one in psi; an RRc
+  /// that the class does not have. Empty without [service_description].
   std::vector<std::string> list_class_doubts() const;
   /// A warning where this tire names the rigs on which its conductances hold, and this rig is none of them.
   std::optional<std::string> warn_of_conductances(const CoolingRig& rig) const;

@@ -21,24 +21,6 @@ double calc_force_method_N(const Reading& reading, const RunSpec& spec) {
   return reading.spindle_force_N * models::calc_rolling_ratio(loaded_radius_m, spec.rig.curvature_per_m());
 }
 
-/// Loss and temperature under load from the start of a range to its end. Empty where it is too short.
-std::optional<std::array<SettlingPoint, 3>> read_settling(const sim::Recording<double>& recording, const RunSpec& spec,
-                                                          const LoadRange& range, const Window& end,
-                                                          double parasitic_N) {
-  constexpr double kFast_s = 180.0;  // Assumed: load, gas, and tread against carcass have settled
-  const double window_s = end.end_s - end.start_s;
-  const double start_s = range.start_s + kFast_s;
-  const double step_s = 0.5 * (end.start_s - start_s);
-  if (step_s < window_s) return std::nullopt;
-  const auto point = [&](double from_s) {
-    const Window window{from_s, from_s + window_s};
-    const double force = calc_mean(recording, spec, window, spec.rig.kind->traits.force);
-    return SettlingPoint{force / spec.rig.lever_m() - parasitic_N,
-                         calc_mean(recording, spec, window, quantities::kLinerTemperature)};
-  };
-  return {{point(start_s), point(start_s + step_s), point(end.start_s)}};
-}
-
 }  // namespace
 
 double calc_mean(const sim::Recording<double>& recording, const RunSpec& spec, const Window& window,
@@ -74,36 +56,6 @@ Cycle evaluate_cycle(const Reading& loaded, const Reading& skim, const RunSpec& 
   return cycle;
 }
 
-std::optional<double> estimate_unsettled(const std::array<SettlingPoint, 3>& points) {
-  const auto& [start, middle, end] = points;
-  const double first_K = middle.liner_temperature_K - start.liner_temperature_K;
-  const double second_K = end.liner_temperature_K - middle.liner_temperature_K;
-  const double decay = second_K / first_K;
-  if (!(std::abs(decay) <= kSlowestDecay)) return std::nullopt;
-  const double left = decay * decay / (1.0 - decay * decay);
-  const double steady_N = end.loss_N + (end.loss_N - start.loss_N) * left;
-  return end.loss_N / steady_N - 1.0;
-}
-
-bool is_settling_unknown(const std::array<SettlingPoint, 3>& points) {
-  constexpr double kStill_K = 0.3;  // Assumed: more than the noise of a mean
-  const double last_K = points[2].liner_temperature_K - points[1].liner_temperature_K;
-  return !estimate_unsettled(points).has_value() && std::abs(last_K) > kStill_K;
-}
-
-std::optional<std::string> warn_of_unsettled(const std::vector<SteadyCycle>& cycles) {
-  const auto is_unknown = [](const SteadyCycle& steady) { return steady.cycle.is_settling_unknown; };
-  if (std::any_of(cycles.begin(), cycles.end(), is_unknown)) {
-    return "the tire still becomes warmer or colder, too far from steady state to say how far RRc is from it: "
-           "settle_min is too short";
-  }
-  double most = 0.0;
-  for (const SteadyCycle& steady : cycles) most = std::max(most, std::abs(steady.cycle.unsettled.value_or(0.0)));
-  if (most <= kSettled) return std::nullopt;
-  return fmt::format(
-      "RRc is up to {:.1f} % away from that in steady state (unsettled_percent): settle_min is too short", 1e2 * most);
-}
-
 std::vector<LoadRange> find_test_ranges(const sim::Recording<double>& recording, const RunSpec& spec) {
   const auto first = static_cast<std::ptrdiff_t>(recording.row_at(0.0));
   const auto from_zero = [first](const std::vector<double>& values) {
@@ -123,12 +75,7 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
   std::vector<Cycle> cycles;
   for (std::size_t i = 0; i + 1 < ranges.size(); ++i) {
     if (ranges[i].loaded && !ranges[i + 1].loaded) {
-      Cycle cycle = evaluate_cycle(read(ranges[i]), read(ranges[i + 1]), spec);
-      if (const auto points = read_settling(recording, spec, ranges[i], cycle.loaded.window, cycle.parasitic_N)) {
-        cycle.unsettled = estimate_unsettled(*points);
-        cycle.is_settling_unknown = is_settling_unknown(*points);
-      }
-      cycles.push_back(cycle);
+      cycles.push_back(evaluate_cycle(read(ranges[i]), read(ranges[i + 1]), spec));
     }
   }
   if (cycles.empty()) throw RunFailure("the run ended before a load and a skim test could be averaged");
@@ -189,11 +136,6 @@ Cycle average_cycles(const std::vector<Cycle>& cycles) {
     mean.rolling_resistance_N += cycle.rolling_resistance_N / n;
     mean.rrc += cycle.rrc / n;
     mean.force_method_N += cycle.force_method_N / n;
-  }
-  if (mean.unsettled.has_value()) {
-    double sum = 0.0;
-    for (const Cycle& cycle : cycles) sum += cycle.unsettled.value_or(*mean.unsettled);
-    mean.unsettled = sum / n;
   }
   for (Reading Cycle::*part : {&Cycle::loaded, &Cycle::skim}) {
     std::optional<double>& torque_Nm = (mean.*part).drum_torque_Nm;

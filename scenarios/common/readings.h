@@ -39,8 +39,6 @@ struct Cycle {
   double rolling_resistance_N = 0.0;  // F_r = T_t/R - F_pl
   double rrc = 0.0;                   // N/N
   double force_method_N = 0.0;        // F_r from the spindle force
-  std::optional<double> unsettled;    // how far F_r is above that in steady state, see estimate_unsettled
-  bool is_settling_unknown = false;   // see is_settling_unknown()
 
   void visit(ResultSheet& visit) const {
     visit(Result{"start_s", "start", ".0f", "start of the window that is averaged under load", Column::kSecond},
@@ -73,46 +71,6 @@ struct Cycle {
     visit(JointLine{"Parasitic loss (skim)", "{parasitic_N}"});
   }
 };
-
-/// A cycle that is meant to be in steady state, and how far it is from it.
-struct SteadyCycle {
-  Cycle cycle;
-
-  void visit(ResultSheet& visit) const {
-    cycle.visit(visit);
-    visit(Result{"unsettled_percent", "unsettled", ".2f",
-                 "how far F_r is above that in steady state, extrapolated from loss and liner temperature under "
-                 "load; absent where the temperature does not settle",
-                 Column::kSecond}
-              .or_left_out(),
-          cycle.unsettled);
-  }
-};
-
-/// A warning where cycles are further from steady state than kSettled, or it cannot be told how far they are.
-std::optional<std::string> warn_of_unsettled(const std::vector<SteadyCycle>& cycles);
-constexpr double kSettled = 0.002;  // Assumed: well below the uncertainty of RRc
-
-/// Loss and liner temperature at one time.
-struct SettlingPoint {
-  double loss_N = 0.0;
-  double liner_temperature_K = 0.0;
-};
-
-/// How far the loss at the end is above its steady value, as a fraction of it. Empty where the temperature does not
-/// settle.
-/// Equation  F_3 / F_steady - 1, F_steady = F_3 + (F_3 - F_1) q^2 / (1 - q^2), q = (T_3 - T_2) / (T_2 - T_1)
-/// Symbols   F loss, T liner temperature, at three times in equal distances; q decay from one time to the next. It is
-///           read off T, because the noise of a torque sensor would hide it
-/// Validity  settling of the first order, in which loss and temperature decay alike; |q| up to kSlowestDecay. After ten
-///           minutes, it is up to 1.7 times too large of a tire with two nodes, and as much with the noise of sensors
-/// Source    Aitken's extrapolation, exact for an exponential decay
-std::optional<double> estimate_unsettled(const std::array<SettlingPoint, 3>& points);
-/// Assumed: beyond it, F_3 - F_1 would be extrapolated by more than 2.6 times itself, as of a truck tire in ten
-/// minutes.
-constexpr double kSlowestDecay = 0.85;
-/// Whether the temperature still changes, and there is no such estimate.
-bool is_settling_unknown(const std::array<SettlingPoint, 3>& points);
 
 /// Title of the second table of a list of cycles.
 constexpr const char* kCycleWindows = "Windows that were averaged, torque in skim, and F_r by the force method";
@@ -160,7 +118,7 @@ double fit_power(const std::vector<double>& x, const std::vector<double>& y);
 /// sensor may be the reason. Nothing where all are positive.
 std::optional<std::string> warn_of_no_power(const std::vector<double>& loss_N);
 
-/// Mean of the cycles of one point: torque, skim, F_r, RRc and what is unsettled averaged; temperatures and windows of
+/// Mean of the cycles of one point: torque, skim, F_r and RRc averaged; temperatures and windows of
 /// the last.
 Cycle average_cycles(const std::vector<Cycle>& cycles);
 

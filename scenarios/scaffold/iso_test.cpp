@@ -28,6 +28,17 @@ double read_rrc(const Outcome& outcome) { return outcome.result["rrc_25degC_2m_N
 
 double simulate_iso_rrc(const models::TireFile& tire) { return read_rrc(simulate_iso_test(tire)); }
 
+StatedIsoTest simulate_stated_iso_test(const models::TireFile& tire) {
+  const Outcome test = simulate_iso_test(tire);
+  if (test.result.contains("why_no_label")) {
+    throw InputError({fmt::format("the simulated test of tire '{}' gives no RRc to state: {}", tire.name,
+                                  test.result["why_no_label"].get<std::string>()),
+                      tire.path, 0, "", "", "a table [iso_28580] with the test of the class, or --rrc NUMBER in N/kN",
+                      ""});
+  }
+  return {read_rrc(test), test.warnings};
+}
+
 void scale_to_iso_rrc(models::TireFile& tire) {
   constexpr int kMost = 40;
   constexpr double kClose = 1e-6;  // of RRc; files state it to three digits

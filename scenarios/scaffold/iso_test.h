@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "models/tire/tire_file.h"
 
@@ -11,6 +12,16 @@ namespace rollrig::scenarios {
 /// RRc at 25 degC on the 2 m drum [N/N]: the scenario iso_28580 as the tire's file has its conditions, quasi-static.
 /// Errors    InputError: the tire lacks a table that the test needs; RunFailure
 double simulate_iso_rrc(const models::TireFile& tire);
+
+/// The same test where its RRc is to be stated, as for a label.
+struct StatedIsoTest {
+  double rrc = 0.0;                   // as above
+  std::vector<std::string> warnings;  // of the run
+};
+
+/// Errors    as above; InputError where the test of the file is not that of the standard for the class of the tire, so
+///           that the scenario iso_28580 gives no label class
+StatedIsoTest simulate_stated_iso_test(const models::TireFile& tire);
 
 /// Scales bounded.loss_N so that the test gives the RRc of [iso_28580].
 /// Errors    RunFailure: no loss does

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 using rollrig::LabelInput;
 using rollrig::make_label;
@@ -99,15 +100,85 @@ TEST_CASE("an RRc far above the limit of its class asks whether the class is rig
   CHECK(make_label(make_label_input(11.9, "C3")).warnings.empty());
   const TireLabel label = make_label(make_label_input(20.0, "C3"));
   REQUIRE(label.warnings.size() == 1);
-  CHECK(label.warnings[0].find("class C3, 8 N/kN: is the class right?") != std::string::npos);
+  CHECK(label.warnings[0].find("stage 1, 8 N/kN: is the class C3 right?") != std::string::npos);
   CHECK(label.text.find("an RRc of 20 N/kN") != std::string::npos);
-  CHECK(label.json.find("is the class right?") != std::string::npos);
+  CHECK(label.json.find("is the class C3 right?") != std::string::npos);
   rollrig::VectoTireInput input = make_vecto_input("c3_315_80r22_5");
   CHECK(rollrig::make_vecto_tire(input).warnings.empty());
   input.rrc_N_per_kN = 25.0;
   const rollrig::VectoTireFile made = rollrig::make_vecto_tire(input);
   REQUIRE(made.warnings.size() == 1);
   CHECK(made.warnings[0].find("an RRc of 25 N/kN") != std::string::npos);
+}
+
+TEST_CASE("an RRc far below class A asks whether the class is right", "[fast]") {
+  for (const double low : {2.0, 3.8}) CHECK(make_label(make_label_input(low, "C1")).warnings.size() == 1);
+  CHECK(make_label(make_label_input(4.0, "C1")).warnings.empty());
+  CHECK(make_label(make_label_input(2.5, "C3")).warnings.empty());
+  rollrig::VectoTireInput input = make_vecto_input("c3_315_80r22_5");
+  input.rrc_N_per_kN = 2.0;
+  CHECK(rollrig::make_vecto_tire(input).warnings.size() == 1);
+}
+
+TEST_CASE("a tire has no label and no tire of VECTO where its test has no class", "[fast]") {
+  const rollrig::tests::TemporaryFolder folder;
+  const auto change = [&folder](const std::string& tire, const std::string& from, const std::string& to) {
+    std::string text = rollrig::tests::read_file(ROLLRIG_SOURCE_DIR "/assets/tires/" + tire + ".toml");
+    const std::size_t place = text.find(from);
+    REQUIRE(place != std::string::npos);
+    text.replace(place, from.size(), to);
+    const std::string path = folder.file("tire.toml");
+    rollrig::tests::write_file(path, text);
+    return path;
+  };
+  const auto is_refused = [](const std::string& path) {
+    LabelInput input;
+    input.tire = path;
+    CHECK_THROWS_AS(make_label(input), rollrig::InputError);
+    input.rrc_N_per_kN = 8.0;  // of the standard's test
+    CHECK(make_label(input).warnings.size() == 1);
+  };
+  is_refused(change("c1_205_55r16", "\nload_N = 4825.0", "\nload_N = 3000.0"));
+  is_refused(change("c1_205_55r16", "\npressure_kPa = 210.0", "\npressure_kPa = 300.0"));
+  is_refused(change("c2_215_65r16c", "\nwarm_up_min = 50.0", "\nwarm_up_min = 10.0"));
+  const std::string truck = change("c3_315_80r22_5", "\nload_N = 33350.0", "\nload_N = 20000.0");
+  CHECK_THROWS_AS(rollrig::make_vecto_tire(make_vecto_input(truck.c_str())), rollrig::InputError);
+}
+
+TEST_CASE("a label and a tire of VECTO have the warnings of the test that they simulate", "[fast]") {
+  const rollrig::tests::TemporaryFolder folder;
+  const auto make_slow = [&folder](const std::string& tire) {
+    std::string text = rollrig::tests::read_file(ROLLRIG_SOURCE_DIR "/assets/tires/" + tire + ".toml");
+    const std::string key = "\nheat_capacity_J_per_K = ";
+    text.replace(text.find(key), key.size(), key + "5");  // 15250 becomes 515250
+    const std::string path = folder.file("tire.toml");
+    rollrig::tests::write_file(path, text);
+    return path;
+  };
+  const auto is_unsettled = [](const std::vector<std::string>& warnings) {
+    return warnings.size() == 1 && warnings[0].find("above that in steady state") != std::string::npos;
+  };
+  LabelInput input;
+  input.tire = make_slow("c1_205_55r16");
+  CHECK(is_unsettled(make_label(input).warnings));
+  const std::string truck = make_slow("c3_315_80r22_5");
+  CHECK(is_unsettled(rollrig::make_vecto_tire(make_vecto_input(truck.c_str())).warnings));
+}
+
+TEST_CASE("a tire without marks has a label by its class alone", "[fast]") {
+  LabelInput input;
+  input.tire = "a50";
+  input.tire_class = "C1";
+  CHECK(make_label(input).warnings.empty());
+}
+
+TEST_CASE("a size for VECTO that is not that of the tire is doubted", "[fast]") {
+  rollrig::VectoTireInput input = make_vecto_input("c2_215_65r16c");
+  CHECK(rollrig::make_vecto_tire(input).warnings.empty());
+  input.dimension = "215/65R16C";  // spaces do not count
+  CHECK(rollrig::make_vecto_tire(input).warnings.empty());
+  input.dimension = "315/80 R22.5";
+  CHECK(rollrig::make_vecto_tire(input).warnings.size() == 1);
 }
 
 TEST_CASE("a text for VECTO that is given is not empty", "[fast]") {

@@ -160,3 +160,30 @@ TEST_CASE("a tire of commercial vehicles that is called C1 is doubted", "[fast]"
   tire.designation = "205/75 R16C";
   CHECK(tire.list_class_doubts().size() == 1);
 }
+
+TEST_CASE("a coefficient that no tire has is refused in a tire file, with the unit that it may be in", "[fast]") {
+  const auto find_allowed = [](const char* rrc) {
+    try {
+      const std::string table = "[iso_28580]\nload_N = 4825\npressure_kPa = 210\nrrc_N_per_kN = ";
+      read_changed_tire("", table + rrc + "\n");
+    } catch (const InputError& error) {
+      return error.problem().allowed;
+    }
+    return std::string();
+  };
+  CHECK(find_allowed("0.84") == "2 to 30 N/kN, which is kg/t; 0.84 in percent is 8.4 N/kN");
+  CHECK(find_allowed("84") == "2 to 30 N/kN, which is kg/t; 84 in 0.1 N/kN is 8.4 N/kN");
+  CHECK(find_allowed("8.4").empty());
+}
+
+TEST_CASE("a truck tire with a pressure in psi is doubted", "[fast]") {
+  const auto count = [](const char* pressure_kPa) {
+    const std::string service = "[service_description]\nclass = \"C3\"\nload_index = 156\nspeed_symbol = \"L\"\n";
+    return read_changed_tire(service + "maximum_load_pressure_kPa = " + pressure_kPa + "\n",
+                             "[iso_28580]\nrrc_N_per_kN = 5.5\n")
+        .list_class_doubts()
+        .size();
+  };
+  CHECK(count("123") == 1);  // 850 kPa
+  for (const char* of_tire : {"525", "850"}) CHECK(count(of_tire) == 0);
+}
