@@ -254,12 +254,13 @@ Trends find_trends(const std::vector<RollingPoint>& points) {
 }  // namespace
 
 std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points) {
+  constexpr double kMostAlpha = 0.02;
   constexpr double kLeastBeta = 0.5;
   constexpr double kMostBeta = 2.0;
   constexpr double kMostFall = 0.05;
   std::vector<std::string> doubts;
   const Trends trends = find_trends(points);
-  if (trends.alpha.value_or(-1.0) > 0.0) {
+  if (trends.alpha.value_or(0.0) > kMostAlpha) {
     doubts.push_back(
         fmt::format("rolling resistance rises with pressure (to the power {:.2g}), where that of tires on a hard surface "
                     "falls: are pressures exchanged between points?",
