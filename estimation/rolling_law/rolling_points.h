@@ -66,8 +66,8 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points);
 /// Doubts by how the force goes with pressure, load and speed, whatever law is fitted: columns whose values stand in
 /// the wrong rows.
 /// Equation  ln F = k + alpha ln P + beta ln Z + gamma ln v, by least squares, of those that have several values
-/// Assumed: alpha is not above 0.02, that is 0 with noise; beta is 0.5 to 2, where tires have 0.8 to 1.5; over the speeds of the test the force
-/// does not fall by more than 5 %
+/// Assumed: alpha is not above 0.02, that is 0 with noise; beta is 0.5 to 2, where tires have 0.8 to 1.5; over the speeds
+/// of the test the force does not fall by more than 5 %
 std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points);
 
 /// How many values are different, where those within 2 % of the least of their group count as one.
