@@ -55,7 +55,7 @@ constexpr double kTooShort = 0.02;
 
 struct Results {
   Cycle cycle;  // the measurement: the last cycle, which is the warm-up's own end when no measurement cycle follows
-  std::optional<double> unsettled;  // how far its loss is above that in steady state, see SettlingTest
+  std::optional<double> unsettled;  // how far its loss is above that in steady state; empty where it has settled
   std::string method;
   std::vector<MethodResult> methods;
   double corrected_rrc = 0.0;
@@ -360,12 +360,14 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     results.cycles = cycles;
   }
   if (spec.tire.iso_28580.has_value()) results.tire_file_rrc = spec.tire.iso_28580->rrc;
-  results.unsettled = find_unsettled(settings, spec);
-  const char* const too_short = settings.measurement_cycles > 0
-                                    ? "the measurement (measurement_min) is too short for this tire"
-                                    : "the warm-up (warm_up_min) is too short for this tire";
-  if (const auto warning = warn_of_unsettled({results.unsettled}, kTooShort, too_short)) {
-    outcome.warnings.push_back(*warning);
+  if (!is_shown_to_settle(outcome.recording, spec, results.cycle, kTooShort)) {
+    results.unsettled = find_unsettled(settings, spec);
+    const char* const too_short = settings.measurement_cycles > 0
+                                      ? "the measurement (measurement_min) is too short for this tire"
+                                      : "the warm-up (warm_up_min) is too short for this tire";
+    if (const auto warning = warn_of_unsettled({results.unsettled}, kTooShort, too_short)) {
+      outcome.warnings.push_back(*warning);
+    }
   }
   for (const std::string& doubt : spec.tire.list_class_doubts()) outcome.warnings.push_back(doubt);
   if (!models::is_ambient_correction_valid(ambient_K)) {

@@ -350,17 +350,19 @@ void doubt_yaw_unit(const CoastdownData& winds, const std::vector<TraceRun>& tra
   constexpr double kRadian_deg = 57.29577951308232;
   constexpr double kLeastWind_m_s = 0.5;     // Assumed
   constexpr double kLeastShare = 1.0 / 15.0;  // Assumed: of the wind across in that along; of angles in rad it is 1/57
-  double squares = 0.0, speed = 0.0, n = 0.0;
+  double squares = 0.0, cross_squares = 0.0, n = 0.0;
   for (const TraceRun& trace : traces) {
     for (const TraceSample& sample : trace.samples) {
+      const double across_m_s = sample.air.yaw_rad * sample.speed_m_s;
       squares += sample.air.yaw_rad * sample.air.yaw_rad;
-      speed += sample.speed_m_s;
+      cross_squares += across_m_s * across_m_s;
       n += 1.0;
     }
   }
   const double yaw_rad = std::sqrt(squares / n);
   const double wind_m_s = find_common_wind(winds).value_or(0.0);
-  if (yaw_rad == 0.0 || wind_m_s < kLeastWind_m_s || yaw_rad > kLeastShare * wind_m_s * n / speed) return;
+  const double across_m_s = std::sqrt(cross_squares / n);
+  if (yaw_rad == 0.0 || wind_m_s < kLeastWind_m_s || across_m_s > kLeastShare * wind_m_s) return;
   warnings.push_back(fmt::format(
       "yaw_deg is {:.2f} deg (root of the mean square) though the wind along the road is {:.1f} m/s: a wind does not keep "
       "to the road like that. Are the angles in rad?",

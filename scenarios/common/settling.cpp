@@ -28,6 +28,35 @@ std::vector<double> simulate_tire_losses_N(const RunSpec& spec, const DrumCondit
   return losses_N;
 }
 
+bool is_shown_to_settle(const sim::Recording<double>& recording, const RunSpec& spec, const Cycle& cycle,
+                        double limit) {
+  constexpr double kFast_s = 180.0;  // Assumed: load, gas, and tread against carcass have settled
+  constexpr double kSlowest = 0.85;  // Assumed: of q; beyond it, 2.6 times what was seen is extrapolated
+  const Window& end = cycle.loaded.window;
+  const std::vector<LoadRange> ranges = find_test_ranges(recording, spec);
+  const auto own = std::find_if(ranges.begin(), ranges.end(), [&end](const LoadRange& range) {
+    return range.start_s <= end.start_s && end.end_s <= range.end_s;
+  });
+  if (own == ranges.end()) return false;
+  const double window_s = end.end_s - end.start_s;
+  const double start_s = own->start_s + kFast_s;
+  const double step_s = 0.5 * (end.start_s - start_s);
+  if (step_s < window_s) return false;
+  const auto mean = [&](double from_s, const Quantity& quantity) {
+    return calc_mean(recording, spec, {from_s, from_s + window_s}, quantity);
+  };
+  const auto loss_N = [&](double from_s) {
+    return mean(from_s, spec.rig.kind->traits.force) / spec.rig.lever_m() - cycle.parasitic_N;
+  };
+  const double middle_K = mean(start_s + step_s, quantities::kLinerTemperature);
+  const double decay = (mean(end.start_s, quantities::kLinerTemperature) - middle_K) /
+                       (middle_K - mean(start_s, quantities::kLinerTemperature));
+  if (!(std::abs(decay) <= kSlowest)) return false;
+  const double end_N = loss_N(end.start_s);
+  const double steady_N = end_N + (end_N - loss_N(start_s)) * decay * decay / (1.0 - decay * decay);
+  return std::abs(end_N / steady_N - 1.0) <= limit;
+}
+
 std::optional<double> SettlingTest::find_unsettled(std::size_t cycle, std::size_t held_cycle) const {
   if (cycle >= loss_N.size() || held_cycle >= held_loss_N.size()) return std::nullopt;
   if (!(held_loss_N[held_cycle] > 0.0)) return std::nullopt;

@@ -48,6 +48,16 @@ SettlingTest simulate_settling(const Settings& settings, const Settings& held, R
   }
 }
 
+/// Whether the recording alone shows that a tire has settled under the load of a cycle, so that nothing need be
+/// simulated for it.
+/// Equation  |F_3 / F_steady - 1| <= limit, F_steady = F_3 + (F_3 - F_1) q^2 / (1 - q^2), q = (T_3 - T_2) / (T_2 - T_1)
+/// Symbols   F loss, T liner temperature, at three times in equal distances, the last one the window of the cycle; q
+///           decay from one time to the next, read off T, because the noise of a torque sensor would hide it
+/// Validity  of a tire whose tread and carcass differ, F_steady is too far away by a factor of 1.2 to 3: what is not
+///           shown to have settled, may have
+/// Source    Aitken's extrapolation, exact for an exponential decay
+bool is_shown_to_settle(const sim::Recording<double>& recording, const RunSpec& spec, const Cycle& cycle, double limit);
+
 /// A cycle that is meant to be in steady state, and how far it is from it.
 struct SteadyCycle {
   Cycle cycle;

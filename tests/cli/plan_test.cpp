@@ -24,7 +24,7 @@ TEST_CASE("a plan is printed, and written as JSON, as a page and as a folder who
   REQUIRE(!plan["tests"].empty());
   const Json& last_test = plan["tests"].back();
   CHECK(plan["visible"].get<int>() == last_test["visible"].get<int>());
-  CHECK_THAT(read_file(folder.file("plan.html")), Contains("effects at their usual size."));
+  CHECK_THAT(read_file(folder.file("plan.html")), Contains("effects that have their usual size."));
   for (const char* file : {"plan.txt", "set.toml", "tire.toml", "rig.toml", "run-1.toml"}) {
     CHECK(!read_file(out + "/" + file).empty());
   }

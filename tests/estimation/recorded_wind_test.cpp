@@ -19,7 +19,7 @@ namespace {
 using Warnings = std::vector<std::string>;
 using Change = std::function<double(double, int)>;  // of a recorded wind, with the heading
 
-tests::ProcedureStudy make_windy_study(double wind_m_s) {
+tests::ProcedureStudy make_study_with_wind(double wind_m_s) {
   tests::ProcedureStudy study;
   study.wind_m_s = wind_m_s;
   study.gust_sd_m_s = 0.4;
@@ -28,7 +28,7 @@ tests::ProcedureStudy make_windy_study(double wind_m_s) {
   return study;
 }
 
-CoastdownFile make_file(const tests::ProcedureStudy& study, const Change& change, std::uint64_t seed = 1) {
+CoastdownFile make_recorded_file(const tests::ProcedureStudy& study, const Change& change, std::uint64_t seed = 1) {
   CoastdownFile file = tests::simulate_procedure(study, seed).file;
   for (CoastdownRun& run : file.data.runs) {
     for (double& wind_m_s : run.conditions.wind_m_s) wind_m_s = change(wind_m_s, run.heading);
@@ -74,8 +74,8 @@ TEST_CASE("a wind recorded with the wrong sign, frame or unit is doubted by ever
                               {1.0, [](double w, int) { return 3.6 * w; }, "in km/h"},
                               {1.3, [](double w, int) { return w / 0.44704; }, "in mph"}};
   for (const Mistake& mistake : mistakes) {
-    const auto study = make_windy_study(mistake.wind_m_s);
-    for (const Warnings& warnings : list_warnings(make_file(study, mistake.change), study.mass_kg)) {
+    const auto study = make_study_with_wind(mistake.wind_m_s);
+    for (const Warnings& warnings : list_warnings(make_recorded_file(study, mistake.change), study.mass_kg)) {
       INFO(mistake.says);
       CHECK(count_of(warnings, kShown) == 1);
       CHECK(count_of(warnings, mistake.says) == 1);
@@ -87,8 +87,8 @@ TEST_CASE("a wind that is recorded as it blows is not doubted", "[fast]") {
   const auto as_it_is = [](double w, int) { return w; };
   for (const double wind_m_s : {0.0, 1.0, 2.5}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      const auto study = make_windy_study(wind_m_s);
-      for (const Warnings& warnings : list_warnings(make_file(study, as_it_is, seed), study.mass_kg)) {
+      const auto study = make_study_with_wind(wind_m_s);
+      for (const Warnings& warnings : list_warnings(make_recorded_file(study, as_it_is, seed), study.mass_kg)) {
         CHECK(count_of(warnings, kShown) == 0);
       }
     }
@@ -98,13 +98,13 @@ TEST_CASE("a wind that is recorded as it blows is not doubted", "[fast]") {
 TEST_CASE("of 60 tests with gusts and slopes of all winds none is doubted", "[slow]") {
   int doubted = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    auto study = make_windy_study(0.05 * static_cast<double>(seed));
+    auto study = make_study_with_wind(0.05 * static_cast<double>(seed));
     study.interval_s = 0.5;
     study.gust_sd_m_s = 1.0;
     study.run_force_sd_N = 6.0;
     study.slope = 0.0005 * static_cast<double>(seed % 5);
     study.pairs = 3 + static_cast<int>(seed % 4);
-    for (const Warnings& warnings : list_warnings(make_file(
+    for (const Warnings& warnings : list_warnings(make_recorded_file(
                                                       study, [](double w, int) { return w; }, 100 + seed),
                                                   study.mass_kg)) {
       doubted += count_of(warnings, "the headings show");
@@ -114,11 +114,11 @@ TEST_CASE("of 60 tests with gusts and slopes of all winds none is doubted", "[sl
 }
 
 TEST_CASE("a slope in percent or with the wrong sign is doubted", "[fast]") {
-  auto study = make_windy_study(1.0);
+  auto study = make_study_with_wind(1.0);
   study.slope = 0.002;
   study.run_force_sd_N = 1.0;
   for (const auto& [factor, says] : {std::pair(100.0, "in percent"), std::pair(-1.0, "sign looks reversed")}) {
-    CoastdownFile file = make_file(study, [](double w, int) { return w; });
+    CoastdownFile file = make_recorded_file(study, [](double w, int) { return w; });
     for (CoastdownRun& run : file.data.runs) {
       for (double& slope : run.conditions.slope) slope *= factor;
     }
@@ -136,12 +136,12 @@ TEST_CASE("a slope in percent or with the wrong sign is doubted", "[fast]") {
 }
 
 TEST_CASE("anemometers at the vehicle and beside the road that contradict each other are doubted", "[fast]") {
-  auto study = make_windy_study(1.5);
+  auto study = make_study_with_wind(1.5);
   study.crosswind_m_s = 2.0;
   study.on_board = true;
   for (const auto& [factor, says] :
        {std::pair(1.0, ""), std::pair(-1.0, "sign looks reversed"), std::pair(3.6, "in km/h")}) {
-    CoastdownFile file = make_file(study, [](double w, int) { return w; });
+    CoastdownFile file = make_recorded_file(study, [](double w, int) { return w; });
     for (CoastdownRun& run : file.data.runs) {
       run.conditions.wind_m_s.assign(run.time_s.size(), factor * 1.5);
       run.conditions.crosswind_m_s.assign(run.time_s.size(), 2.0);
