@@ -87,16 +87,21 @@ struct Results {
                      "each section", "Liner of that tire; energy of the whole vehicle, at its hubs and its battery"},
           sections, total);
     economy.visit_cycles(visit);
-    visit(Summary{
-        "The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery ({economy.last.name}), for a "
-        "range of {economy.last.range_km}. The first, cold city cycle differs from later ones by "
-        "{first_city_excess_percent}."});
+    const bool has_range = economy.is_range_of_battery();
+    visit(Summary{has_range ? "The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery "
+                              "({economy.last.name}), for a range of {economy.last.range_km}. The first, cold city cycle "
+                              "differs from later ones by {first_city_excess_percent}."
+                            : "The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery "
+                              "({economy.last.name}). The first, cold city cycle differs from later ones by "
+                              "{first_city_excess_percent}. Its file has no battery, which a range would need."});
     visit(
         Summary{"The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery ({economy.last.name})."});
     visit(
         Headline{"Consumption", "{economy.last.dc_consumption_Wh_per_km}", "{economy.last.name}, out of the battery"});
-    visit(Headline{"Range", "{economy.last.range_km}",
-                   "{economy.last.name}, as tested; {economy.last.label_range_mi} on a US label, adjusted"});
+    if (has_range) {
+      visit(Headline{"Range", "{economy.last.range_km}",
+                     "{economy.last.name}, as tested; {economy.last.label_range_mi} on a US label, adjusted"});
+    }
     visit(
         Headline{"First city cycle above later ones", "{first_city_excess_percent}", "battery energy: the cold start"});
     visit(Headline{"Tires' share of the cold start", "{first_city_tire_share_percent}", "of the excess at the hubs"});

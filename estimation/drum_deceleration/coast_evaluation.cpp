@@ -111,16 +111,17 @@ void add_exponent(const Tables& tables, Eigen::Index speed, SpeedPoint& point) {
   point.pressure_exponent = point.exponent_by_repeats;
   if (net.size() <= 2) return;  // the law has no rest
   const double freedom = static_cast<double>(net.size()) - 2.0;
-  parts.back() = {law.residual_variance * law.weights_squared, freedom};
-  const Interval by_law = make_interval(law.slope, parts);
-  // Few levels may lie on a line by chance: what the repeats say of the exponent is there in any case.
-  point.is_exponent_by_law = by_law.upper > point.exponent_by_repeats->upper;
-  if (point.is_exponent_by_law) point.pressure_exponent = by_law;
   point.level_scatter = std::sqrt(law.residual_variance);
   if (repeat.freedom > 0.0 && repeat.variance > 0.0) {
     const boost::math::fisher_f_distribution<double> fisher(freedom, repeat.freedom);
     point.lack_of_fit_p = boost::math::cdf(boost::math::complement(fisher, law.residual_variance / repeat.variance));
   }
+  // Few levels may lie on a line by chance. The scatter about it counts where it may be more than that of repeats.
+  constexpr double kLevel = 0.25;  // Assumed: of significance, as usual before variances are taken for one
+  point.is_exponent_by_law = point.lack_of_fit_p.value_or(0.0) < kLevel;
+  if (!point.is_exponent_by_law) return;
+  parts.back() = {law.residual_variance * law.weights_squared, freedom};
+  point.pressure_exponent = make_interval(law.slope, parts);
 }
 
 /// By how much the exponent moves with the wheel's share of the mass, which is often not known.

@@ -167,7 +167,7 @@ std::string guess_drum_time_unit(double deceleration_m_s2) {
   for (const TimeUnit& unit : {TimeUnit{60.0, "min"}, TimeUnit{3600.0, "h"}, TimeUnit{1e-3, "ms"}}) {
     const double in_s_m_s2 = deceleration_m_s2 / unit.length_s;
     if (in_s_m_s2 >= kLeast_m_s2 && in_s_m_s2 <= kMost_m_s2)
-      return fmt::format("; they would be usual in {}", unit.name);
+      return fmt::format(" It would be usual with times in {}.", unit.name);
   }
   return "";
 }
@@ -182,7 +182,7 @@ void require_drum_deceleration(const CoastSet& set, DrumCoastdownFit& fit) {
   refuse_units(
       set,
       fmt::format("the drum alone slows down by {:.3g} m/s2 at {:.0f} km/h, as no drum does: are the times in s "
-                  "and the speeds in km/h{}?",
+                  "and the speeds in km/h?{}",
                   found_m_s2, 3.6 * point.speed_m_s, guess_drum_time_unit(found_m_s2)),
       "time_s", fmt::format("a deceleration of {:g} to {:g} m/s2", kLeast_m_s2, kMost_m_s2), fit);
 }

@@ -58,7 +58,7 @@ struct SpeedPoint {
   std::vector<PressureLevel> levels;
   std::optional<Interval> pressure_exponent;    // of force over gauge pressure
   std::optional<Interval> exponent_by_repeats;  // the same line, its interval from runs at one pressure alone
-  bool is_exponent_by_law = false;              // its interval is that of the levels about the line, the wider of both
+  bool is_exponent_by_law = false;              // its interval has the scatter about the line, not that of runs
   double exponent_per_mass_ratio = 0.0;         // by how much it moves with mu
   std::optional<double> level_scatter;          // of the levels about the power law [1]
   double repeat_scatter = 0.0;                  // of runs at one pressure, in the net deceleration [1]

@@ -324,9 +324,11 @@ bool do_anemometers_contradict(const CoastdownData& beside, const CoastdownData&
   return contradict;
 }
 
+constexpr double kDegPerRad = 57.29577951308232;
+
 /// Warns of a vane that is off: what both headings have of yaw, which a wind across the road has with opposite signs.
 void doubt_vane(const CoastdownData& data, const std::vector<TraceRun>& traces, std::vector<std::string>& warnings) {
-  constexpr double kLeastOffset_rad = 2.0 * 0.017453292519943295;  // Assumed: a vane is mounted within 1 deg
+  constexpr double kLeastOffset_rad = 2.0 / kDegPerRad;  // Assumed: a vane is mounted within 1 deg
   std::vector<RecordedAndShown> runs;
   for (const TraceRun& trace : traces) {
     double across = 0.0, whole = 0.0;
@@ -341,13 +343,12 @@ void doubt_vane(const CoastdownData& data, const std::vector<TraceRun>& traces, 
   warnings.push_back(fmt::format(
       "yaw_deg is {:+.1f} deg on average of both headings, where a wind across the road has opposite signs: "
       "is the vane mounted at an angle, or has yaw_deg no sign?",
-      *offset_rad / 0.017453292519943295));
+      *offset_rad * kDegPerRad));
 }
 
 /// Warns of yaw angles that are far below what the wind along the road lets expect: rad in place of deg.
 void doubt_yaw_unit(const CoastdownData& winds, const std::vector<TraceRun>& traces,
                     std::vector<std::string>& warnings) {
-  constexpr double kRadian_deg = 57.29577951308232;
   constexpr double kLeastWind_m_s = 0.5;     // Assumed
   constexpr double kLeastShare = 1.0 / 15.0;  // Assumed: of the wind across in that along; of angles in rad it is 1/57
   double squares = 0.0, cross_squares = 0.0, n = 0.0;
@@ -364,9 +365,9 @@ void doubt_yaw_unit(const CoastdownData& winds, const std::vector<TraceRun>& tra
   const double across_m_s = std::sqrt(cross_squares / n);
   if (yaw_rad == 0.0 || wind_m_s < kLeastWind_m_s || across_m_s > kLeastShare * wind_m_s) return;
   warnings.push_back(fmt::format(
-      "yaw_deg is {:.2f} deg (root of the mean square) though the wind along the road is {:.1f} m/s: a wind does not keep "
-      "to the road like that. Are the angles in rad?",
-      kRadian_deg * yaw_rad, wind_m_s));
+      "yaw_deg is {:.2f} deg (root of the mean square) though the wind along the road is {:.1f} m/s: a wind does not "
+      "keep to the road like that. Are the angles in rad?",
+      kDegPerRad * yaw_rad, wind_m_s));
 }
 
 /// Throws InputError where a heading has no run, or none that is long enough.

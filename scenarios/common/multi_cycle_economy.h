@@ -29,6 +29,8 @@ struct EconomyResults {
   std::optional<ColdExcess> cold;
   std::vector<CycleResult> cycles;
 
+  /// Whether a range follows from a battery; else from the lengths of the sections, which a test sets.
+  bool is_range_of_battery() const { return usable_from == "battery"; }
   /// All but the list of the cycles.
   void visit(ResultSheet& visit) const;
   void visit_cycles(ResultSheet& visit) const;

@@ -148,5 +148,5 @@ TEST_CASE("without a load the force is bounded, and its judgment said to be miss
   for (CoastRun& run : set.runs) {
     for (double& time_s : run.drum->time_s) time_s /= 60.0;
   }
-  CHECK_THROWS_WITH(fit_drum_coastdown(set), Contains("they would be usual in min"));
+  CHECK_THROWS_WITH(fit_drum_coastdown(set), Contains("It would be usual with times in min"));
 }
