@@ -116,8 +116,8 @@ void add_exponent(const Tables& tables, Eigen::Index speed, SpeedPoint& point) {
     const boost::math::fisher_f_distribution<double> fisher(freedom, repeat.freedom);
     point.lack_of_fit_p = boost::math::cdf(boost::math::complement(fisher, law.residual_variance / repeat.variance));
   }
-  // Few levels may lie on a line by chance. The scatter about it counts where it may be more than that of repeats.
-  constexpr double kLevel = 0.25;  // Assumed: of significance, as usual before variances are taken for one
+  // Few levels may lie on a line by chance. The scatter about it counts where it is more than that of repeats.
+  constexpr double kLevel = 0.05;  // of significance
   point.is_exponent_by_law = point.lack_of_fit_p.value_or(0.0) < kLevel;
   if (!point.is_exponent_by_law) return;
   parts.back() = {law.residual_variance * law.weights_squared, freedom};

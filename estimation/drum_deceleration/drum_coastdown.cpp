@@ -140,8 +140,7 @@ void warn_of_method(const CoastSet& set, const Tables& tables, DrumCoastdownFit&
       fit.warnings.push_back(
           fmt::format("{:.1f} km/h: loaded and lifted runs do not both pass", 3.6 * point.speed_m_s));
     }
-    constexpr double kUnlikely = 0.05;
-    if (point.lack_of_fit_p.value_or(1.0) < kUnlikely) {
+    if (point.is_exponent_by_law && point.lack_of_fit_p.has_value()) {
       fit.warnings.push_back(fmt::format(
           "{:.1f} km/h: pressures scatter about a power law by {:.1f} %, runs at one pressure "
           "by {:.1f} %: the law is not exact (p = {:.2g}); the exponent's interval holds that",
