@@ -259,6 +259,10 @@ Report ItemCampaign::calc_sensitivity(const std::string& result) const {
     scatters.push_back(report::make_factor_scatter(design.factors[f].key, of_items, column));
   }
   found.json["over_two_factors"] = report::make_factor_means(scatters);
+  for (std::size_t i = 0; !is_sobol && i < scatters.size(); ++i) {
+    const std::vector<double> steps = report::list_factor_steps(scatters[i]);
+    if (!steps.empty()) found.json["factors"][i]["steps"] = steps;
+  }
   Report report;
   report.json = to_text(found.json);
   report.text = format_table(found.table) + wrap(found.explanation, 0);

@@ -63,23 +63,27 @@ Json make_change_series(const Json& factors) {
   return {{"name", "mean change"}, {"values", values}, {"low", low}, {"high", high}};
 }
 
-/// "by 5 °C" of a factor of elementary effects, which has four values: a change goes from the first to the third, or
-/// from the second to the fourth. Empty for words, and where items are left out.
+/// "by 5 °C" of a factor of elementary effects; empty where its steps are not known.
 std::string describe_step(const std::string& key, const std::vector<FactorScatter>& scatters) {
   const auto own =
       std::find_if(scatters.begin(), scatters.end(), [&key](const FactorScatter& one) { return one.key == key; });
-  if (own == scatters.end() || !own->words.empty()) return "";
-  std::vector<double> levels = own->values;
-  std::sort(levels.begin(), levels.end());
-  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-  if (levels.size() != 4) return "";
+  const std::vector<double> steps = own == scatters.end() ? std::vector<double>() : list_factor_steps(*own);
+  if (steps.empty()) return "";
   const std::string unit = shown_unit(last_part(key));
-  const auto steps = std::minmax({levels[2] - levels[0], levels[3] - levels[1]});
-  const std::string least = fmt::format("{:.3g}", steps.first), most = fmt::format("{:.3g}", steps.second);
+  const std::string least = fmt::format("{:.3g}", std::min(steps[0], steps[1]));
+  const std::string most = fmt::format("{:.3g}", std::max(steps[0], steps[1]));
   return fmt::format("by {}{}{}{}", least, least == most ? "" : " or " + most, unit.empty() ? "" : " ", unit);
 }
 
 constexpr const char* kStepOfProbability = "from its 12.5 % to its 62.5 % quantile, or from 37.5 % to 87.5 %";
+
+/// "-0.323 to -0.32": the interval of 95 % of a change, with its sign.
+std::string show_change_limits(const Json& factor) {
+  const double sign = find_change(factor) < 0.0 ? -1.0 : 1.0;
+  const auto sizes = std::minmax({sign * factor["mean_size"]["low_95"].get<double>(),
+                                  sign * factor["mean_size"]["high_95"].get<double>()});
+  return fmt::format("{:.3g} to {:.3g}", sizes.first, sizes.second);
+}
 
 /// "66 to 100 %" of a share of the variance, within 0 to 100 %.
 std::string show_share_limits(const Json& index) {
@@ -265,15 +269,9 @@ std::string describe_sensitivity(const Json& sensitivity, const std::vector<Fact
     return fmt::format("{} {}{}{}", show_change(factor), unit, has_one_sign(factor) ? "" : " up or down",
                        step.empty() ? "" : " as it rises " + step);
   };
-  const auto limits = [](const Json& factor) {
-    const double sign = find_change(factor) < 0.0 ? -1.0 : 1.0;
-    const auto sizes = std::minmax({sign * factor["mean_size"]["low_95"].get<double>(),
-                                    sign * factor["mean_size"]["high_95"].get<double>()});
-    return fmt::format(" (95 % interval {:.3g} to {:.3g})", sizes.first, sizes.second);
-  };
   text += is_sobol ? fmt::format("it accounts for {} of the variance (95 % interval {})", size(factors[0]),
                                  show_share_limits(factors[0]["total"]))
-                   : "on average, " + size(factors[0]) + limits(factors[0]);
+                   : "on average, " + size(factors[0]);
   for (std::size_t i = 1; i < std::min(kMost, factors.size()); ++i) {
     others.push_back(fmt::format("{} {}", name_factor(factors[i]), size(factors[i])));
   }
@@ -305,8 +303,8 @@ Block make_sensitivity_tiles(const Json& sensitivity, const std::vector<FactorSc
           {name,
            show_change(factor),
            shown_unit(result),
-           fmt::format("{} as it rises {}", has_one_sign(factor) ? "mean change" : "mean size of the change",
-                       step.empty() ? kStepOfProbability : step),
+           fmt::format("{} as it rises {} (95 %: {})", has_one_sign(factor) ? "mean change" : "mean size of the change",
+                       step.empty() ? kStepOfProbability : step, show_change_limits(factor)),
            "",
            {place + (has_one_sign(factor) ? "mean" : "mean_size/value")}});
     }
@@ -339,6 +337,15 @@ FactorScatter make_factor_scatter(const std::string& key, const std::vector<std:
     scatter.values.push_back(static_cast<double>(std::distance(words.begin(), words.find(value))));
   }
   return scatter;
+}
+
+std::vector<double> list_factor_steps(const FactorScatter& scatter) {
+  if (!scatter.words.empty()) return {};
+  std::vector<double> levels = scatter.values;
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  if (levels.size() != 4) return {};
+  return {levels[2] - levels[0], levels[3] - levels[1]};
 }
 
 Json make_factor_means(const std::vector<FactorScatter>& scatters) {

@@ -21,6 +21,10 @@ struct FactorScatter {
 FactorScatter make_factor_scatter(const std::string& key, const std::vector<std::string>& values,
                                   const std::vector<double>& results);
 
+/// The steps in which a factor of elementary effects rises, in the unit of its key: of its four values from the first
+/// to the third, and from the second to the fourth. Empty for words, and where items are left out.
+std::vector<double> list_factor_steps(const FactorScatter& scatter);
+
 /// The mean result over the first two factors, each in a few ranges: the map of the page, for the document. Null where
 /// there are fewer factors.
 Json make_factor_means(const std::vector<FactorScatter>& scatters);

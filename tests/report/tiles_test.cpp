@@ -278,10 +278,10 @@ TEST_CASE("an elementary effect has one sign in sentence, tile and bar, and says
   const report::Page page = report::make_sensitivity_page(sensitivity, table, "", scatters);
   const std::vector<report::Block>& blocks = page.sections.front().blocks;
   CHECK(blocks[0]["text"] ==
-        "RRc depends most on ambient: on average, -0.32 N/kN as it rises by 5 °C (95 % interval -0.352 to "
-        "-0.288); pressure 0.1 N/kN up or down.");
+        "RRc depends most on ambient: on average, -0.32 N/kN as it rises by 5 °C; pressure 0.1 N/kN up or "
+        "down.");
   CHECK(blocks[1]["tiles"][0]["value"] == "-0.32");
-  CHECK(blocks[1]["tiles"][0]["note"] == "mean change as it rises by 5 °C");
+  CHECK(blocks[1]["tiles"][0]["note"] == "mean change as it rises by 5 °C (95 %: -0.352 to -0.288)");
   CHECK(blocks[1]["tiles"][1]["value"] == "0.1");  // the mean of changes that go either way hides them
   CHECK(blocks[2]["series"][0]["values"] == Json({-0.32, 0.1}));
   CHECK(blocks[2]["series"][0]["low"][0] == Approx(-0.352));
