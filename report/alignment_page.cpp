@@ -183,11 +183,11 @@ Block make_alignment_lead(const AlignmentFile& file, const AlignmentResult& resu
   const estimation::AlignmentLine& line = result.line;
   return make_lead(
       result.is_valid ? "good" : "bad",
-      fmt::format("The alignment of {} is {} until {}: the aligned RRC is {:.4f} (A1 A2) times the measured RRC, "
+      fmt::format("The alignment of {} is {} until {}: the aligned RRC is {:.4f} (A1 A2) times the measured RRC "
                   "{} {:.4f} N/kN.",
                   name_or(file.machine, "the machine"), result.is_valid ? "valid" : "not valid; it would be valid",
                   estimation::format_day(result.valid_until_s), line.calc_factor(),
-                  line.calc_offset() < 0.0 ? "minus" : "plus", std::abs(line.calc_offset())));
+                  line.calc_offset() < 0.0 ? "-" : "+", std::abs(line.calc_offset())));
 }
 
 }  // namespace

@@ -8,10 +8,12 @@
 namespace rollrig::scenarios {
 
 void prepare_for_settling(double window_s, RunSpec& spec) {
-  constexpr double kMostInterval_s = 2.0;  // Assumed: short against warming up
+  constexpr double kLeastInterval_s = 0.2;  // Assumed: so that 12 h stay within some 10^5 rows
+  constexpr double kMostInterval_s = 2.0;   // Assumed: short against warming up
   spec.fidelity = Fidelity::kQuasiStatic;
   spec.sensors.reset();
-  spec.sample_interval_s = std::max(spec.sample_interval_s, std::min(kMostInterval_s, 0.1 * window_s));
+  spec.sample_interval_s =
+      std::max(spec.sample_interval_s, std::clamp(0.1 * window_s, kLeastInterval_s, kMostInterval_s));
 }
 
 std::vector<double> simulate_tire_losses_N(const RunSpec& spec, const DrumConditions& conditions,
