@@ -52,7 +52,7 @@ TEST_CASE("an effect finds itself in the table that it makes", "[published]") {
   }
 }
 
-TEST_CASE("docs/source_gap.md says what the program gives (§4.5.1, §5.2)", "[slow]") {
+TEST_CASE("docs/source_gap.md says what the program gives (§4.5.1, §5.2)", "[weekly]") {
   // Out of date? cmake --build build/release --target source_gap_page
   tests::check_page(read_text_file(ROLLRIG_SOURCE_DIR "/docs/source_gap.md"), tools::make_source_gap_page());
 }
