@@ -33,6 +33,8 @@ struct MeasuredRun : RunTable {
   std::string file;       // path
   bool reversed = false;  // a drum or a roller, turned the other way round
   std::vector<double> time_s;
+  // Where the mean that a row holds begins, and that of the last row ends; empty: half-way between rows.
+  std::vector<double> mean_bounds_s;
   QuantityMap<std::vector<double>> columns;  // SI; NaN where there is no sample
   LeftOutRows left_out;
 

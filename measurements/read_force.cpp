@@ -15,6 +15,7 @@ std::vector<S> trace_of(const MeasuredRun& run, const models::Corner<S>& corner,
                         const std::vector<double>& force) {
   sim::Recording<S> recording;
   recording.time_s = run.time_s;
+  recording.mean_bounds_s = run.mean_bounds_s;
   const auto add = [&](const Quantity& quantity, std::vector<S> values) {
     recording.channels.push_back({quantity});
     recording.values.push_back(std::move(values));

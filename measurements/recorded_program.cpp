@@ -130,6 +130,7 @@ sim::Program make_recorded_program(const MeasuredRun& run, const MachineKind& ki
   sim::Program program;
   program.start_time_s = run.time_s.front();
   program.sample_times_s = run.time_s;
+  program.mean_bounds_s = run.mean_bounds_s;
   program.phases = {std::move(phase)};
   return program;
 }

@@ -13,9 +13,9 @@
 #include "rigs/standstill_grid.h"
 #include "rigs/trace_effects.h"
 #include "sim/core/error.h"
-#include "sim/fixed_grid_integrator.h"
 #include "sim/lagged_midpoint_integrator.h"
 #include "sim/simulate.h"
+#include "sim/stabilized_integrator.h"
 
 namespace rollrig::measurements {
 namespace {
@@ -137,16 +137,53 @@ sim::Recording<S> run_on(Machine&& machine, const sim::Program& program) {
   return sim::simulate<S>(machine, integrator, program);
 }
 
-/// Steps for the integrator of order 4. Assumed: at most two fifths of the gas's time constant; while the speed
-/// changes, at most the time in which it changes by 0.75 m/s, less than a quarter of the 12 km/h below which an error
-/// of the recorded speed matters most (models/effects/speed_record.cpp).
+/// The longest step so long after the last change of speed or load. Assumed: 10 s, two fifths of the gas's time
+/// constant; from 400 s on a twentieth to a fortieth of that time, since what is left to settle takes as long as it has
+/// taken so far; at most 80 s.
+double find_longest_step_s(double since_change_s) {
+  constexpr double kFirst_s = 10.0;
+  constexpr double kMost_s = 80.0;
+  double step_s = kFirst_s;
+  while (step_s < kMost_s && since_change_s >= 40.0 * step_s) step_s *= 2.0;
+  return step_s;
+}
+
+/// Parts of a segment without a change, in each of which steps are equally long.
+void add_held_parts(const sim::Segment& segment, double since_change_s, std::vector<sim::Segment>& parts) {
+  double from_s = 0.0;
+  while (from_s < segment.duration_s) {
+    const double step_s = find_longest_step_s(since_change_s + from_s);
+    const double longer_at_s = 40.0 * step_s - since_change_s;
+    const double to_s = longer_at_s > from_s ? std::min(longer_at_s, segment.duration_s) : segment.duration_s;
+    parts.push_back(sim::cut_segment(segment, from_s, to_s));
+    parts.back().max_step_s = step_s;
+    from_s = to_s;
+  }
+}
+
+/// Steps for the integrator. Assumed: while the speed changes, at most 10 s and the time in which it changes by 0.75
+/// m/s, less than a quarter of the 12 km/h below which an error of the recorded speed matters most
+/// (models/effects/speed_record.cpp).
 void limit_steps(sim::Phase& phase) {
   constexpr double kMostChange_m_s = 0.75;
-  phase.max_step_s = 10.0;
-  for (sim::Segment& segment : phase.segments) {
-    // No limit at constant speed: the slope is 0.
-    segment.max_step_s = kMostChange_m_s / std::abs(segment.inputs[rigs::index_of(DrumInput::kSpeed)].slope_per_s);
+  const std::size_t speed = rigs::index_of(DrumInput::kSpeed);
+  const std::size_t load = rigs::index_of(DrumInput::kLoad);
+  phase.max_step_s = 80.0;
+  std::vector<sim::Segment> parts;
+  double since_change_s = 0.0;
+  for (const sim::Segment& segment : phase.segments) {
+    const double slope = std::abs(segment.inputs[speed].slope_per_s);
+    const bool is_same_load = !parts.empty() && parts.back().inputs[load].start == segment.inputs[load].start;
+    if (slope > 0.0 || !is_same_load) since_change_s = 0.0;
+    if (slope > 0.0) {
+      parts.push_back(segment);
+      parts.back().max_step_s = std::min(find_longest_step_s(0.0), kMostChange_m_s / slope);
+      continue;
+    }
+    add_held_parts(segment, since_change_s, parts);
+    since_change_s += segment.duration_s;
   }
+  phase.segments = std::move(parts);
 }
 
 }  // namespace
@@ -168,8 +205,8 @@ sim::Recording<S> Resimulation::simulate(const MeasurementSet& set, const Measur
   sim::Recording<S> recording;
   switch (set.kind->traits.specimen) {
     case models::Specimen::kTire:
-      recording = run_on<S, sim::FixedGridIntegrator>(rigs::QuasiStaticDrum<S>(corner, start, surface_recorded, detail),
-                                                      program_);
+      recording = run_on<S, sim::StabilizedIntegrator>(
+          rigs::QuasiStaticDrum<S>(corner, start, surface_recorded, detail), program_);
       break;
     case models::Specimen::kWheel:
       recording = run_on<S, sim::LaggedMidpointIntegrator>(

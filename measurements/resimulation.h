@@ -31,7 +31,8 @@ sim::Program make_recorded_program(const MeasuredRun& run, const MachineKind& ki
 /// Axles     on the road each axle has its own load, tire and pressure; axles that are alike are simulated as one
 ///           corner. `corner` has the tire of the set, which axles without a tire of their own have: numbers moved in
 ///           it move there. Other axles keep the numbers of their tire's file. Effects act on all axles alike
-/// Machine   drum and flat belt: rigs/quasi_static_drum.h on the fixed grid; dyno: rigs/recorded_roller.h, and road:
+/// Machine   drum and flat belt: rigs/quasi_static_drum.h by sim/stabilized_integrator.h, whose steps grow from 10 to
+///           80 s where speed and load are held; dyno: rigs/recorded_roller.h, and road:
 ///           rigs/recorded_road.h, by the lagged midpoint rule. A drive right after another (tire_state = "warm")
 ///           begins at the temperature of steady driving at 80 km/h (Assumed)
 /// Checked   tests/measurements/resimulation_test.cpp, tests/measurements/road_resimulation_test.cpp,

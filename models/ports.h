@@ -146,6 +146,14 @@ template <class S>
 struct TracePort {
   const Context<S>* context = nullptr;
   std::vector<double> time_s;
+  std::vector<double> mean_bounds_s;  // where the mean of each row begins and that of the last ends; empty: half-way
+
+  /// Where the mean of a row begins: that of the first at its time. Of one past the last row: where the last ends.
+  double find_mean_start_s(std::size_t row) const {
+    if (!mean_bounds_s.empty()) return mean_bounds_s[row];
+    if (row == 0) return time_s.front();
+    return row == time_s.size() ? time_s.back() : 0.5 * (time_s[row - 1] + time_s[row]);
+  }
 
   struct Channel {
     Quantity quantity;

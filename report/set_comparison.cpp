@@ -20,13 +20,12 @@ void simulate_run(const PreparedSet& set, std::size_t run, models::Corner<double
                   std::vector<double>& values) {
   const PreparedRun& prepared = set.runs()[run];
   const sim::Recording<double> recording =
-      prepared.resimulation.simulate(set.source(), prepared.measured, corner, rigs::Detail::kMeasured);
+      prepared.resimulation.simulate(set.source(), prepared.simulated.run, corner, rigs::Detail::kMeasured);
   for (const Series& series : set.series()) {
     if (series.run != run) continue;
     const std::vector<double>& rows = recording.channel(set.channels()[series.channel]);
     for (std::size_t k = 0; k < series.size(); ++k) {
-      values[series.first_residual + k] =
-          series.mean_over(series.blocks[k], [&rows](std::size_t row) { return rows[row]; });
+      values[series.first_residual + k] = series.mean_of_simulated(k, rows);
     }
   }
 }

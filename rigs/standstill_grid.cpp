@@ -5,17 +5,6 @@
 #include <vector>
 
 namespace rollrig::rigs {
-namespace {
-
-/// The part of a segment from `from_s` to `to_s`.
-sim::Segment cut_segment(const sim::Segment& segment, double from_s, double to_s) {
-  sim::Segment part = segment;
-  part.duration_s = to_s - from_s;
-  for (sim::Ramp& ramp : part.inputs) ramp.start = ramp.at(from_s);
-  return part;
-}
-
-}  // namespace
 
 sim::Program refine_near_standstill(const sim::Program& program, std::size_t speed_input) {
   constexpr double kBand_m_s = 0.4;   // where tanh(v / 0.05 m/s) is 1 to 1e-7
@@ -36,7 +25,7 @@ sim::Program refine_near_standstill(const sim::Program& program, std::size_t spe
       }
       cuts_s.push_back(segment.duration_s);
       for (std::size_t i = 0; i + 1 < cuts_s.size(); ++i) {
-        sim::Segment piece = cut_segment(segment, cuts_s[i], cuts_s[i + 1]);
+        sim::Segment piece = sim::cut_segment(segment, cuts_s[i], cuts_s[i + 1]);
         const bool slow = std::abs(speed.at(0.5 * (cuts_s[i] + cuts_s[i + 1]))) < kBand_m_s;
         if (slow && speed.slope_per_s != 0.0) piece.max_step_s = kStep_m_s / std::abs(speed.slope_per_s);
         pieces.push_back(std::move(piece));

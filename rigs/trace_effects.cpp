@@ -11,6 +11,7 @@ void apply_trace_effects(const models::Corner<S>& corner, sim::Recording<S>& rec
   models::TracePort<S> trace;
   trace.context = &corner.context();
   trace.time_s = recording.time_s;
+  trace.mean_bounds_s = recording.mean_bounds_s;
   std::vector<std::size_t> columns;
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
     const std::optional<Quantity> own = find_own(recording.channels[i].quantity);

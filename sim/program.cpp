@@ -1,8 +1,13 @@
 #include "sim/program.h"
 
-#include <spdlog/spdlog.h>
-
 namespace rollrig::sim {
+
+Segment cut_segment(const Segment& segment, double from_s, double to_s) {
+  Segment part = segment;
+  part.duration_s = to_s - from_s;
+  for (Ramp& ramp : part.inputs) ramp.start = ramp.at(from_s);
+  return part;
+}
 
 double Phase::duration_s() const {
   double sum_s = 0.0;
@@ -14,10 +19,6 @@ double Program::duration_s() const {
   double sum_s = 0.0;
   for (const Phase& phase : phases) sum_s += phase.duration_s();
   return sum_s;
-}
-
-void log_phase(const Phase& phase, double start_s) {
-  spdlog::debug("{:10.1f} s  {} ({:.0f} s)", start_s, phase.name, phase.duration_s());
 }
 
 }  // namespace rollrig::sim

@@ -24,6 +24,9 @@ struct Segment {
   double max_step_s = 0.0;   // of the fixed grid, where shorter than the phase's; 0 for none
 };
 
+/// The part of a segment from one time after its start to another.
+Segment cut_segment(const Segment& segment, double from_s, double to_s);
+
 /// Ends a phase before its time: the watched quantity crosses the threshold.
 struct StopCondition {
   enum class Direction { kFalling, kRising };
@@ -53,6 +56,8 @@ struct Program {
   double start_time_s = 0.0;
   double sample_interval_s = 1.0;
   std::vector<double> sample_times_s;  // where not empty, instead of the interval; increasing, from start to end
+  // Of samples at own times: where the mean of each begins and that of the last ends; empty: half-way between samples.
+  std::vector<double> mean_bounds_s;
   std::vector<Phase> phases;
 
   double duration_s() const;

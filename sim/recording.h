@@ -25,6 +25,7 @@ struct Recording {
   std::vector<PhaseSpan> phases;
   std::vector<std::vector<S>> phase_integrals;  // of each phase: what its time added to every integral
   std::vector<double> time_s;
+  std::vector<double> mean_bounds_s;        // where the mean of each row begins and that of the last ends; may be empty
   std::vector<std::size_t> phase;           // index into phases, one a row
   std::vector<std::vector<S>> values;       // one column a channel, SI units
   std::vector<PoseCoordinate> poses;        // of the bodies, where the system has some

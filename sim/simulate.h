@@ -26,7 +26,7 @@ namespace detail {
 ///
 /// Samples lie at start + k d, d the program's interval, or at the program's own times. A row holds values
 /// at its time, and for mean channels the mean from half-way to the sample before to half-way to the next,
-/// cut at both ends of the run. At a knot the row shows the inputs that hold from then on.
+/// cut at both ends of the run, or between the program's own bounds. At a knot the row shows the inputs that hold from then on.
 template <class S>
 class Sampler {
  public:
@@ -37,6 +37,7 @@ class Sampler {
         start_s_(program.start_time_s),
         interval_s_(program.sample_interval_s) {
     out_.channels = system.channels();
+    out_.mean_bounds_s = program.mean_bounds_s;
     out_.values.resize(out_.channels.size());
     out_.poses = system.poses();
     out_.pose_values.resize(out_.poses.size());
@@ -111,7 +112,10 @@ class Sampler {
     const double before_s = k > 0 ? time_of(k) - time_of(k - 1) : kNever_s;
     return std::min(kMostSlack_s, 0.25 * std::min(before_s, time_of(k + 1) - time_of(k)));
   }
-  double boundary_after(long k) const { return 0.5 * (time_of(k) + time_of(k + 1)); }
+  double boundary_after(long k) const {
+    const std::vector<double>& bounds_s = program_.mean_bounds_s;
+    return bounds_s.empty() ? 0.5 * (time_of(k) + time_of(k + 1)) : bounds_s[static_cast<std::size_t>(k + 1)];
+  }
   bool is_written(long k) const { return (k - first_of_phase_) % stride_ == 0; }
 
   void open_row(Integrator<S>& integrator, double row_s) {

@@ -118,7 +118,7 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
   }
   sim::Recording<S> recording;
   try {
-    recording = run.resimulation.simulate(set_.source(run.machine), run.measured, corner,
+    recording = run.resimulation.simulate(set_.source(run.machine), run.simulated.run, corner,
                                           set_.extra().sensors.empty() ? rigs::Detail::kMeasured : rigs::Detail::kFull);
   } catch (const RunFailure&) {
     return false;
@@ -129,9 +129,9 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
     if (series.run != r) continue;
     const double most = find_most_SI(set_.channels()[series.channel]);
     const std::vector<S> simulated =
-        read_channel(set_.source(run.machine), run.measured, corner, recording, set_.channels()[series.channel]);
+        read_channel(set_.source(run.machine), run.simulated.run, corner, recording, set_.channels()[series.channel]);
     for (std::size_t k = 0; k < series.size(); ++k) {
-      const S mean = series.mean_over(series.blocks[k], [&](std::size_t row) { return simulated[row]; });
+      const S mean = series.mean_of_simulated(k, simulated);
       if (!(std::abs(value_of(mean)) < most)) return false;  // NaN too
       if (first_column == 0) values[to_index(series.first_residual + k)] = value_of(mean);
       store_derivatives(mean, derivatives, series.first_residual + k, first_column, count);

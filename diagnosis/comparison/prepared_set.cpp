@@ -27,11 +27,11 @@ bool stands(const measurements::MeasuredRun& run, std::size_t row) {
   return true;
 }
 
-/// The phase of each row.
-std::vector<std::size_t> phase_by_row(const PreparedRun& run) {
-  std::vector<std::size_t> of(run.measured.time_s.size(), 0);
-  for (std::size_t p = 0; p < run.phases.size(); ++p) {
-    for (std::size_t row = run.phases[p].first; row < run.phases[p].last; ++row) of[row] = p;
+/// The phase of each of so many rows.
+std::vector<std::size_t> phase_by_row(const std::vector<RunPhase>& phases, std::size_t rows) {
+  std::vector<std::size_t> of(rows, 0);
+  for (std::size_t p = 0; p < phases.size(); ++p) {
+    for (std::size_t row = phases[p].first; row < phases[p].last; ++row) of[row] = p;
   }
   return of;
 }
@@ -67,6 +67,42 @@ std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::
     }
   }
   return blocks;
+}
+
+/// Rows at which what a series says begins or ends: those of its blocks, and those of gaps between its samples.
+void add_cuts(const Series& series, std::vector<std::size_t>& cuts) {
+  const std::vector<std::size_t>& rows = series.rows;
+  std::vector<std::size_t> strides;
+  for (std::size_t i = 1; i < rows.size(); ++i) strides.push_back(rows[i] - rows[i - 1]);
+  std::size_t usual = 1;
+  if (!strides.empty()) {
+    const auto middle = strides.begin() + static_cast<std::ptrdiff_t>(strides.size() / 2);
+    std::nth_element(strides.begin(), middle, strides.end());
+    usual = *middle;
+  }
+  for (const Block& block : series.blocks) {
+    cuts.push_back(rows[block.first]);
+    cuts.push_back(rows[block.last - 1] + 1);
+    for (std::size_t i = block.first + 1; i < block.last; ++i) {
+      if (rows[i] - rows[i - 1] <= 2 * usual) continue;
+      cuts.push_back(rows[i - 1] + 1);
+      cuts.push_back(rows[i]);
+    }
+  }
+}
+
+/// Finds in which rows of the simulation the samples of each block lie.
+void find_parts(const std::vector<std::size_t>& row_of, Series& series) {
+  for (const Block& block : series.blocks) {
+    series.first_parts.push_back(series.parts.size());
+    for (std::size_t i = block.first; i < block.last; ++i) {
+      const std::size_t row = row_of[series.rows[i]];
+      const bool is_new = i == block.first || series.parts.back().row != row;
+      if (is_new) series.parts.push_back({row, 0.0});
+      series.parts.back().samples += 1.0;
+    }
+  }
+  series.first_parts.push_back(series.parts.size());
 }
 
 }  // namespace
@@ -143,34 +179,42 @@ void PreparedSet::find_channels() {
 
 void PreparedSet::add_run(std::size_t machine, const measurements::MeasuredRun& run) {
   const measurements::MeasurementSet& set = source(machine);
-  runs_.push_back({run, measurements::Resimulation(run, *set.kind), kind_->find_phases(set, run), machine});
+  const std::vector<RunPhase> phases = kind_->find_phases(set, run);
+  const std::size_t first_series = series_.size();
   for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
     if (!run.has(channels_[channel])) continue;
     const auto [it, fresh] = offsets_.emplace(std::tuple(machine, run.session, channel), offsets_.size());
-    add_series(runs_.size() - 1, channel, it->second);
+    add_series(machine, run, phases, {channel, it->second});
   }
+  std::vector<std::size_t> cuts;
+  for (std::size_t s = first_series; s < series_.size(); ++s) add_cuts(series_[s], cuts);
+  measurements::MergedRun simulated = measurements::merge_steady_rows(run, *set.kind, std::move(cuts), block_length_s_);
+  for (std::size_t s = first_series; s < series_.size(); ++s) find_parts(simulated.row_of, series_[s]);
+  measurements::Resimulation resimulation(simulated.run, *set.kind);
+  runs_.push_back({run, std::move(simulated), std::move(resimulation), phases, machine});
 }
 
-void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t offset) {
-  const PreparedRun& run = runs_[r];
-  const Quantity& quantity = channels_[channel];
-  const measurements::MeasurementSet& set = source(run.machine);
+void PreparedSet::add_series(std::size_t machine, const measurements::MeasuredRun& run,
+                             const std::vector<RunPhase>& run_phases, ChannelOfSession of) {
+  const Quantity& quantity = channels_[of.channel];
+  const measurements::MeasurementSet& set = source(machine);
   const models::SensorParameters& sensor = set.sensors.at(quantity);
   require_noise(set, quantity);
-  const std::vector<double>& values = run.measured.column(quantity);
-  std::vector<std::size_t> rows = kind_->find_compared_rows(run.measured, quantity);
-  const bool reads_zero = extra_.force_at_standstill || run.measured.force_at_standstill;
-  if (reads_zero && quantity == set.kind->traits.force) add_standstill_rows(run.measured, values, rows);
+  const std::vector<double>& values = run.column(quantity);
+  std::vector<std::size_t> rows = kind_->find_compared_rows(run, quantity);
+  const bool reads_zero = extra_.force_at_standstill || run.force_at_standstill;
+  if (reads_zero && quantity == set.kind->traits.force) add_standstill_rows(run, values, rows);
   if (rows.empty()) return;
-  const std::vector<std::size_t> phases = phase_by_row(run);
-  std::vector<Block> blocks = make_blocks(rows, run.measured.time_s, phases, block_length_s_);
-  const Whitener whitener(sensor, measurements::find_times(run.measured, rows), blocks);
-  Series series{r,  channel,  offset, sensor.offset_sd, std::move(rows), std::move(blocks), {}, {},
-                {}, whitener, 0.0,    residual_count_};
+  const std::vector<std::size_t> phases = phase_by_row(run_phases, run.time_s.size());
+  std::vector<Block> blocks = make_blocks(rows, run.time_s, phases, block_length_s_);
+  const Whitener whitener(sensor, measurements::find_times(run, rows), blocks);
+  Series series{
+      runs_.size(), of.channel, of.offset, sensor.offset_sd, std::move(rows), std::move(blocks), {}, {}, {}, whitener,
+      {},           {},         0.0,       residual_count_};
   std::vector<double> floors;
   for (std::size_t k = 0; k < series.size(); ++k) {
     const Block& block = series.blocks[k];
-    series.time_s.push_back(series.mean_over(block, [&](std::size_t row) { return run.measured.time_s[row]; }));
+    series.time_s.push_back(series.mean_over(block, [&](std::size_t row) { return run.time_s[row]; }));
     series.measured.push_back(series.mean_over(block, [&](std::size_t row) { return values[row]; }));
     series.phase.push_back(phases[series.rows[block.first]]);
     floors.push_back(whitener.standard_deviation(k));

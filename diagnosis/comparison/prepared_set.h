@@ -8,6 +8,7 @@
 
 #include "diagnosis/comparison/eigen_index.h"
 #include "diagnosis/comparison/run_phases.h"
+#include "measurements/merged_rows.h"
 #include "measurements/resimulation.h"
 #include "measurements/whitener.h"
 #include "models/ports.h"
@@ -18,6 +19,12 @@ class MeasurementKind;
 
 using measurements::Block;
 using measurements::Whitener;
+
+/// Samples of a block that lie in one row of the simulation.
+struct SimulatedPart {
+  std::size_t row = 0;  // of the simulation
+  double samples = 0.0;
+};
 
 /// One channel of one run.
 struct Series {
@@ -31,8 +38,10 @@ struct Series {
   std::vector<std::size_t> phase;  // of each block, index into the run's phases
   std::vector<double> measured;    // block means, SI
   Whitener whitener;
-  double floor = 0.0;              // noise floor: median of the blocks' standard deviations, without the offset
-  std::size_t first_residual = 0;  // index of its first residual
+  std::vector<SimulatedPart> parts;      // of all blocks, in order
+  std::vector<std::size_t> first_parts;  // of each block, and one past the last part
+  double floor = 0.0;                    // noise floor: median of the blocks' standard deviations, without the offset
+  std::size_t first_residual = 0;        // index of its first residual
 
   std::size_t size() const { return blocks.size(); }
   /// The rows of this series in a vector or matrix over all residuals.
@@ -47,10 +56,21 @@ struct Series {
     for (std::size_t i = block.first + 1; i < block.last; ++i) sum += get(rows[i]);
     return decltype(sum)(sum / static_cast<double>(block.last - block.first));
   }
+  /// Mean over the samples of a block of what a simulation has in its rows.
+  template <class S>
+  S mean_of_simulated(std::size_t block, const std::vector<S>& simulated) const {
+    const SimulatedPart& first = parts[first_parts[block]];
+    S sum = first.samples * simulated[first.row];
+    for (std::size_t i = first_parts[block] + 1; i < first_parts[block + 1]; ++i) {
+      sum += parts[i].samples * simulated[parts[i].row];
+    }
+    return sum / static_cast<double>(blocks[block].last - blocks[block].first);
+  }
 };
 
 struct PreparedRun {
   measurements::MeasuredRun measured;
+  measurements::MergedRun simulated;  // its rows are those of the simulation
   measurements::Resimulation resimulation;
   std::vector<RunPhase> phases;
   std::size_t machine = 0;  // on which it was measured (PreparedSet::source())
@@ -105,7 +125,12 @@ class PreparedSet {
 
   void find_channels();
   void add_run(std::size_t machine, const measurements::MeasuredRun& run);
-  void add_series(std::size_t run, std::size_t channel, std::size_t offset);
+  struct ChannelOfSession {
+    std::size_t channel;
+    std::size_t offset;
+  };
+  void add_series(std::size_t machine, const measurements::MeasuredRun& run, const std::vector<RunPhase>& phases,
+                  ChannelOfSession of);
 
   ExtraReadings extra_;
   std::vector<Machine> machines_;

@@ -1,4 +1,5 @@
 /// The cavity of the tire becomes smaller under load and larger with speed.
+#include <array>
 #include <vector>
 
 #include "models/effect.h"
@@ -104,20 +105,19 @@ struct CavityVolume {
       const S duration_s = quantity<S>(port.time_s[row + 1] - port.time_s[row], dimension::kTime);
       const S grows = change_at(row, row) - change_at(row, row + 1);
       if (value_of(lacking) == 0.0 && value_of(grows) == 0.0) continue;
-      const S half_s = S(0.5) * duration_s;
       const S steady = grows * time_constant_s / duration_s;
-      const S left_over = exp(-half_s / time_constant_s);
-      const S at_middle = (lacking - steady) * left_over + steady;
-      const S faded = time_constant_s * (S(1.0) - left_over);
-      integral[row] += (lacking - steady) * faded + steady * half_s;
-      integral[row + 1] += (at_middle - steady) * faded + steady * half_s;
-      lacking = (at_middle - steady) * left_over + steady;
+      const double bound_s = port.find_mean_start_s(row + 1);
+      const std::array<double, 2> parts_s{bound_s - port.time_s[row], port.time_s[row + 1] - bound_s};
+      for (std::size_t part = 0; part < parts_s.size(); ++part) {
+        const S part_s = quantity<S>(parts_s[part], dimension::kTime);
+        const S left_over = exp(-part_s / time_constant_s);
+        integral[row + part] += (lacking - steady) * (time_constant_s * (S(1.0) - left_over)) + steady * part_s;
+        lacking = (lacking - steady) * left_over + steady;
+      }
     }
     for (std::size_t row = 0; row < integral.size(); ++row) {
-      const double from_s = row > 0 ? 0.5 * (port.time_s[row - 1] + port.time_s[row]) : port.time_s[row];
-      const double to_s =
-          row + 1 < integral.size() ? 0.5 * (port.time_s[row] + port.time_s[row + 1]) : port.time_s[row];
-      integral[row] = integral[row] / quantity<S>(to_s - from_s, dimension::kTime);
+      const double width_s = port.find_mean_start_s(row + 1) - port.find_mean_start_s(row);
+      integral[row] = integral[row] / quantity<S>(width_s, dimension::kTime);
     }
     return integral;
   }

@@ -9,12 +9,13 @@ namespace rollrig::models::clock_shift {
 
 /// A channel of which the means over one cell a row are known, read at other times.
 ///
-/// A cell reaches from half-way to the row before to half-way to the next, and ends at the first and last row. In a
-/// cell the channel is the parabola that has the cell's mean and, at both edges, what the straight line between the
-/// neighboring cells' means has there. So means are kept, the channel is continuous, its integral has a continuous
-/// slope, and all is linear in the means. Before the first row the channel is what it is there (a tire waits in its
-/// state); after the last it goes on with the slope of the last two cells.
-/// Error     smooth channel, cells h wide: of third order in h. Beside a kink: jump of the slope times h/16. Beside a
+/// A cell is what a row is the mean over: from half-way to the row before to half-way to the next, unless the rows say
+/// otherwise; the first begins and the last ends at its row. In a cell the channel is the parabola that has the cell's
+/// mean and, at both edges, what the straight line between the neighboring cells' means has there. So means are kept,
+/// the channel is continuous, its integral has a continuous slope, and all is linear in the means. Before the first row
+/// the channel is what it is there (a tire waits in its state); after the last it goes on with the slope of the last
+/// two cells. Error     smooth channel, cells h wide: of third order in h. Beside a kink: jump of the slope times h/16.
+/// Beside a
 ///           step: means overshoot by up to 8 % of it, and where in its cell it lies is not known (22 %). Where rows
 ///           stand farther apart than they average over: h^2/24 times the second derivative more
 /// Checked   tests/models/effects/trace_effects_test.cpp
@@ -22,11 +23,9 @@ template <class S>
 class MeanChannel {
  public:
   /// At least two rows; no gaps.
-  MeanChannel(const std::vector<double>& time_s, std::vector<S> means) : means_(std::move(means)) {
+  MeanChannel(const TracePort<S>& port, std::vector<S> means) : means_(std::move(means)) {
     const std::size_t last = means_.size() - 1;
-    edge_s_.push_back(time_s.front());
-    for (std::size_t k = 1; k <= last; ++k) edge_s_.push_back(0.5 * (time_s[k - 1] + time_s[k]));
-    edge_s_.push_back(time_s.back());
+    for (std::size_t k = 0; k <= last + 1; ++k) edge_s_.push_back(port.find_mean_start_s(k));
     edges_.push_back(means_[0] - S(share_of(0, 1)) * (means_[1] - means_[0]));
     for (std::size_t k = 1; k <= last; ++k) {
       edges_.push_back(means_[k - 1] + S(share_of(k - 1, k)) * (means_[k] - means_[k - 1]));
@@ -150,7 +149,7 @@ struct ClockShift {
     for (const Quantity& quantity : {quantities::kLinerTemperature, quantities::kCavityPressure}) {
       std::vector<S>* values = port.find(quantity);
       if (values == nullptr || values->size() < 2) continue;
-      const MeanChannel<S> channel(port.time_s, fill_gaps(port.time_s, *values));
+      const MeanChannel<S> channel(port, fill_gaps(port.time_s, *values));
       const std::vector<S> shifted = channel.calc_means(-self.parameter(kShift));
       for (std::size_t row = 0; row < values->size(); ++row) {
         if (!is_missing((*values)[row])) (*values)[row] = shifted[row];

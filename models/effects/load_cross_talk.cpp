@@ -34,13 +34,14 @@ struct LoadCrossTalk {
 
   /// Mean load over every sample, as loggers average a load that holds from row to row.
   template <class S>
-  static std::vector<S> calc_means(const std::vector<double>& time_s, const std::vector<S>& load_N) {
+  static std::vector<S> calc_means(const TracePort<S>& port, const std::vector<S>& load_N) {
     std::vector<S> means = load_N;
-    for (std::size_t i = 1; i + 1 < time_s.size(); ++i) {
-      const double share = (time_s[i] - time_s[i - 1]) / (time_s[i + 1] - time_s[i - 1]);  // that lies before the row
+    for (std::size_t i = 1; i + 1 < load_N.size(); ++i) {
+      const double start_s = port.find_mean_start_s(i);
+      const double share = (port.time_s[i] - start_s) / (port.find_mean_start_s(i + 1) - start_s);  // before the row
       means[i] += S(share) * (load_N[i - 1] - load_N[i]);
     }
-    if (time_s.size() > 1) means.back() = load_N[time_s.size() - 2];
+    if (load_N.size() > 1) means.back() = load_N[load_N.size() - 2];
     return means;
   }
 
@@ -50,7 +51,7 @@ struct LoadCrossTalk {
     const std::vector<S>* load_N = port.find(quantities::kLoad);
     std::vector<S>* force = port.find_force();
     if (load_N == nullptr || force == nullptr) return;
-    const std::vector<S> mean_N = calc_means(port.time_s, *load_N);
+    const std::vector<S> mean_N = calc_means(port, *load_N);
     const S& reference_N = port.context->tire.rolling_resistance.reference_load_N;
     const S& bending = self.parameter(kBending);
     for (std::size_t i = 0; i < mean_N.size(); ++i) {

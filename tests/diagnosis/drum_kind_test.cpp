@@ -84,10 +84,10 @@ TEST_CASE("a light barrier counts the turns of the drum, not what the record say
   constexpr double kErrorPercent = 4.0;  // true over recorded, at 80 km/h
   models::Corner<double> corner(set.context(),
                                 {tests::make_active(models::find_effect("speed_record"), {kErrorPercent})});
-  const PreparedRun& run = set.runs().front();
-  const auto recording = run.resimulation.simulate(set.source(), run.measured, corner, rigs::Detail::kFull);
-  const auto read_m_s = read_channel(set.source(), run.measured, corner, recording, {"speed_reading", "km_h"});
-  REQUIRE(read_m_s.size() == run.measured.time_s.size());
+  const measurements::MeasuredRun& run = set.runs().front().simulated.run;
+  const auto recording = set.runs().front().resimulation.simulate(set.source(), run, corner, rigs::Detail::kFull);
+  const auto read_m_s = read_channel(set.source(), run, corner, recording, {"speed_reading", "km_h"});
+  REQUIRE(read_m_s.size() == run.time_s.size());
   const auto [slowest, fastest] = std::minmax_element(read_m_s.begin(), read_m_s.end());
   CHECK(*slowest == Approx(1.04 * kSpeed_m_s));
   CHECK(*fastest == Approx(1.04 * kSpeed_m_s));
