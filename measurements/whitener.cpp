@@ -100,12 +100,22 @@ double Whitener::log_determinant() const {
   return sum;
 }
 
-void Whitener::apply(double* values, std::size_t count) const {
-  std::vector<double> drift(count, 0.0);
-  for (std::size_t k = 0; k < steps_.size(); ++k) {
-    const Step& step = steps_[k];
-    for (std::size_t c = 0; c < count; ++c) {
-      double& value = values[k * count + c];
+std::size_t Whitener::find_reach(std::size_t end) const {
+  constexpr double kNothing = 1e-13;
+  double drift = end > 0 ? steps_[end - 1].gain : 0.0;  // that a unit in the last row leaves behind
+  while (end < steps_.size() && std::abs(drift) > kNothing) {
+    drift *= steps_[end].carry - steps_[end].gain * steps_[end].memory;
+    ++end;
+  }
+  return end;
+}
+
+void Whitener::apply_from(std::size_t first, double* values, Shape shape) const {
+  std::vector<double> drift(shape.columns, 0.0);
+  for (std::size_t k = 0; k < shape.rows; ++k) {
+    const Step& step = steps_[first + k];
+    for (std::size_t c = 0; c < shape.columns; ++c) {
+      double& value = values[k * shape.columns + c];
       const double innovation = value - step.memory * drift[c];
       drift[c] = step.carry * drift[c] + step.gain * innovation;
       value = innovation * step.inverse;

@@ -40,7 +40,16 @@ class Whitener {
   double log_determinant() const;
 
   /// Whitens `count` columns of block means at once, in place; row k of column c is values[k * count + c].
-  void apply(double* values, std::size_t count) const;
+  void apply(double* values, std::size_t count) const { apply_from(0, values, {size(), count}); }
+  struct Shape {
+    std::size_t rows;
+    std::size_t columns;
+  };
+  /// The same of columns that are 0 above a row, from which on `values` has some rows.
+  void apply_from(std::size_t first, double* values, Shape shape) const;
+  /// One past the last row that matters in a whitened column which was 0 from `end` on: beyond, less than 1e-13 of a
+  /// unit is left of it.
+  std::size_t find_reach(std::size_t end) const;
   /// Takes `apply` back.
   void undo(double* values, std::size_t count) const;
 

@@ -137,7 +137,7 @@ RowMatrix whiten_basis(const Series& series, const Eigen::MatrixXd& columns, dou
 }
 
 /// What Sigma^-1/2 takes from each direction of a basis, as a share.
-Eigen::VectorXd calc_taken(const Discrepancy::Basis& basis, const Amplitudes& amplitudes) {
+Eigen::VectorXd calc_taken_of(const Discrepancy::Basis& basis, const Amplitudes& amplitudes) {
   const double square = amplitudes[basis.channel] * amplitudes[basis.channel];
   return (1.0 - (1.0 + square * basis.strengths.array()).rsqrt()).matrix();
 }
@@ -213,7 +213,7 @@ Eigen::MatrixXd Discrepancy::gather(const Basis& basis, const Columns& columns) 
 void Discrepancy::whiten_series(const Amplitudes& amplitudes, std::size_t series, RowMatrix& columns) const {
   set_.series()[series].whitener.apply(columns.data(), static_cast<std::size_t>(columns.cols()));
   const Basis& basis = bases_[series];  // of time: one each
-  const Eigen::VectorXd taken = calc_taken(basis, amplitudes);
+  const Eigen::VectorXd taken = calc_taken_of(basis, amplitudes);
   const Eigen::MatrixXd along = basis.directions.transpose() * columns;
   columns -= basis.directions * (taken.asDiagonal() * along);
 }
@@ -221,7 +221,7 @@ void Discrepancy::whiten_series(const Amplitudes& amplitudes, std::size_t series
 template <class Columns>
 void Discrepancy::whiten(const Amplitudes& amplitudes, Columns& columns) const {
   for (const Basis& basis : bases_) {
-    const Eigen::VectorXd taken = calc_taken(basis, amplitudes);
+    const Eigen::VectorXd taken = calc_taken_of(basis, amplitudes);
     const Eigen::MatrixXd along = basis.directions.transpose() * gather(basis, columns);
     const Eigen::MatrixXd change = basis.directions * (taken.asDiagonal() * along);
     Eigen::Index next = 0;
@@ -236,6 +236,10 @@ void Discrepancy::whiten(const Amplitudes& amplitudes, Columns& columns) const {
 template <class Columns>
 void Discrepancy::whiten_below(Columns& columns) const {
   if (below_ != nullptr) below_->whiten(below_amplitudes_, columns);
+}
+
+Eigen::VectorXd Discrepancy::calc_taken(const Amplitudes& amplitudes, std::size_t series) const {
+  return calc_taken_of(bases_[series], amplitudes);  // of time: one each
 }
 
 double Discrepancy::calc_log_determinant(const Amplitudes& amplitudes, std::size_t series) const {

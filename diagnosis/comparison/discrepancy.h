@@ -54,6 +54,9 @@ class Discrepancy {
   /// Sigma^-1/2, in place.
   void whiten_series(const Amplitudes& amplitudes, std::size_t series, RowMatrix& columns) const;
 
+  /// Of a discrepancy of time: what Sigma^-1/2 takes from each direction of one series, as a share.
+  Eigen::VectorXd calc_taken(const Amplitudes& amplitudes, std::size_t series) const;
+
   /// Of a discrepancy of time: ln |Sigma| over the blocks of one series, sensor noise taken out.
   double calc_log_determinant(const Amplitudes& amplitudes, std::size_t series) const;
 

@@ -1,6 +1,7 @@
 #include "diagnosis/comparison/held_out.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -49,6 +50,58 @@ Eigen::VectorXd solve_within_bounds(const Model& model, const Eigen::MatrixXd& c
   return by_unknowns.solve(solve_within(by_moves, by_unknowns.transpose().solve(gradient), bounds.lower, bounds.upper));
 }
 
+/// Neighboring blocks of a series: what they have by themselves, given all other blocks of the series.
+///
+/// Equation  own rows = L^-1 E^T Sigma^-1/2 c, L L^T = E^T Sigma^-1 E; Sigma^-1/2 = (1 - D t D^T) N, with A = N E:
+///           E^T Sigma^-1 E = A^T A - (D^T A)^T (2 t - t^2) (D^T A)
+/// Symbols   E unit vectors of the blocks, c whitened columns, N whitening by the sensor, D directions of the
+///           discrepancy, t what is taken from each of them. A has few rows: what a block leaves in those after it
+///           fades
+class OwnBlocks {
+ public:
+  OwnBlocks(const Discrepancy& discrepancy, const Amplitudes& amplitudes, std::size_t series,
+            measurements::Block blocks)
+      : basis_(discrepancy.bases()[series]), taken_(discrepancy.calc_taken(amplitudes, series)) {
+    const Whitener& whitener = discrepancy.set().series()[series].whitener;
+    const std::size_t count = blocks.last - blocks.first;
+    const std::size_t rows = whitener.find_reach(blocks.last) - blocks.first;
+    first_row_ = to_index(blocks.first);
+    units_ = RowMatrix::Identity(to_index(rows), to_index(count));
+    whitener.apply_from(blocks.first, units_.data(), {rows, count});
+    along_ = basis_.directions.middleRows(first_row_, units_.rows()).transpose() * units_;
+    const Eigen::VectorXd lost = (1.0 - (1.0 - taken_.array()).square()).sqrt().matrix();
+    Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(units_.cols(), units_.cols());
+    precision.selfadjointView<Eigen::Lower>().rankUpdate(units_.transpose());
+    precision.selfadjointView<Eigen::Lower>().rankUpdate((lost.asDiagonal() * along_).transpose(), -1.0);
+    factor_.compute(precision);
+  }
+
+  /// Of whitened columns over the blocks of the series.
+  RowMatrix find_rows(const RowMatrix& columns) const {
+    const Eigen::MatrixXd in_directions = taken_.asDiagonal() * (basis_.directions.transpose() * columns);
+    const Eigen::MatrixXd of_blocks =
+        units_.transpose() * columns.middleRows(first_row_, units_.rows()) - along_.transpose() * in_directions;
+    return factor_.matrixL().solve(of_blocks);
+  }
+
+  double calc_log_determinant() const { return diagnosis::calc_log_determinant(factor_); }
+
+ private:
+  const Discrepancy::Basis& basis_;
+  Eigen::VectorXd taken_;
+  Eigen::Index first_row_ = 0;
+  RowMatrix units_;        // A
+  Eigen::MatrixXd along_;  // D^T A
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
+/// The blocks of a phase, which are neighbors.
+measurements::Block find_blocks(const Series& series, std::size_t phase) {
+  const auto [first, last] = std::equal_range(series.phase.begin(), series.phase.end(), phase);
+  return {static_cast<std::size_t>(first - series.phase.begin()),
+          static_cast<std::size_t>(last - series.phase.begin())};
+}
+
 }  // namespace
 
 LeaveOut::LeaveOut(const Study& study, const Candidate& candidate)
@@ -75,19 +128,13 @@ LeaveOut::OwnRows LeaveOut::find_own_rows(const LeftOutPart& part, const RowMatr
       log_scale -= 0.5 * study_.discrepancy.calc_log_determinant(candidate_.amplitudes, s);
       continue;
     }
-    std::vector<Eigen::Index> blocks;
-    for (std::size_t k = 0; k < series.size(); ++k) {
-      if (series.phase[k] == *part.phase) blocks.push_back(to_index(k));
-    }
-    if (blocks.empty()) continue;
-    const Eigen::Index count = to_index(blocks.size());
-    RowMatrix units = RowMatrix::Zero(to_index(series.size()), count);
-    for (std::size_t k = 0; k < blocks.size(); ++k) units(blocks[k], to_index(k)) = 1.0;
-    study_.discrepancy.whiten_series(candidate_.amplitudes, s, units);
-    const Eigen::LLT<Eigen::MatrixXd> factor(units.transpose() * units);
-    own.middleRows(next, count) = factor.matrixL().solve(Eigen::MatrixXd(units.transpose() * series.rows_of(columns)));
+    const measurements::Block blocks = find_blocks(series, *part.phase);
+    if (blocks.first == blocks.last) continue;
+    const OwnBlocks of_phase(study_.discrepancy, candidate_.amplitudes, s, blocks);
+    const Eigen::Index count = to_index(blocks.last - blocks.first);
+    own.middleRows(next, count) = of_phase.find_rows(series.rows_of(columns));
     next += count;
-    log_scale += 0.5 * calc_log_determinant(factor);
+    log_scale += 0.5 * of_phase.calc_log_determinant();
   }
   own.conservativeResize(next, Eigen::NoChange);
   return {own, log_scale};
