@@ -8,9 +8,9 @@ namespace rollrig::measurements {
 namespace {
 
 constexpr double kAfterChange_s = 120.0;  // Assumed: five time constants of the gas
-constexpr double kBeforeChange_s = 10.0;  // Assumed: more than clocks of a test are apart
+constexpr double kBeforeChange_s = 10.0;  // Assumed: clocks of a test are no more apart
 constexpr double kShortest_s = 10.0;      // Assumed: as the blocks of a diagnosis
-constexpr double kShareOfTime = 0.1;      // Assumed
+constexpr double kShareOfTime = 0.1;      // Assumed: a curve with that time as time constant is off by 4e-4 of its rest
 constexpr double kSlack_s = 1e-6;
 
 /// Columns of a run in which a change counts.

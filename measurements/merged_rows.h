@@ -19,8 +19,7 @@ struct MergedRun {
 /// are all rows of other specimens: the rows of a driving vehicle change all the time.
 ///
 /// Length    of merged rows: 10 s, and a tenth of the time since the last change where that is more, but never above
-///           `longest_s`. Assumed: then a curve that bends with any time constant up to the time since the change is
-///           off by less than 4e-4 of what it still has to go
+///           `longest_s`: what has not settled by then bends with a time constant of that time or more
 /// Cuts      rows at which a merged row has to begin
 /// Checked   tests/measurements/merged_rows_test.cpp
 MergedRun merge_steady_rows(const MeasuredRun& run, const MachineKind& kind, std::vector<std::size_t> cuts,
