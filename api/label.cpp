@@ -36,12 +36,27 @@ std::string read_label_symbol(const std::string& text) {
                     fmt::format("one of {}", fmt::join(models::list_speed_symbols(), " ")), ""});
 }
 
-/// The tire's own marks, with what is given in place of them.
+/// Throws InputError where a mark that is given is not that of the tire's file.
+void require_own_mark(const models::TireFile& tire, const char* option, const std::string& mark,
+                      const std::string& own, const std::string& given) {
+  if (own == given) return;
+  throw InputError({fmt::format("tire '{}' has {} {} by its file, not {}", tire.name, mark, own, given),
+                    "command line", 0, option, given, fmt::format("{}, or no {}", own, option), ""});
+}
+
+/// The tire's own marks, and those that are given where its file has none.
 models::ServiceDescription merge_service(const LabelInput& input, const std::optional<models::TireFile>& tire) {
   models::ServiceDescription service;
   if (tire.has_value() && tire->service.has_value()) service = *tire->service;
   if (!input.load_index.empty()) service.load_index = scenarios::parse_load_index(input.load_index);
   if (!input.speed_symbol.empty()) service.speed_symbol = read_label_symbol(input.speed_symbol);
+  if (tire.has_value() && tire->service.has_value()) {
+    const models::ServiceDescription& own = *tire->service;
+    require_own_mark(*tire, "--load-index", "load index", fmt::format("{}", own.load_index),
+                     fmt::format("{}", service.load_index));
+    const std::string symbol = own.speed_symbol.empty() ? service.speed_symbol : own.speed_symbol;
+    require_own_mark(*tire, "--speed-symbol", "speed symbol", symbol, service.speed_symbol);
+  }
   service.is_severe_snow = service.is_severe_snow || input.is_severe_snow;
   return service;
 }
@@ -99,7 +114,11 @@ double find_label_rrc(const LabelInput& input, const std::optional<models::TireF
                       const models::ServiceDescription& service, std::vector<std::string>& warnings) {
   if (input.rrc_N_per_kN.has_value()) {
     if (tire.has_value()) warnings = tire->list_class_doubts();
-    return read_declared_rrc(*input.rrc_N_per_kN);
+    const double rrc = read_declared_rrc(*input.rrc_N_per_kN);
+    if (const auto doubt = models::doubt_class_by_rrc(service.tire_class, rrc, service.is_severe_snow)) {
+      warnings.push_back(*doubt);
+    }
+    return rrc;
   }
   if (tire.has_value()) {
     const scenarios::StatedIsoTest test = scenarios::simulate_stated_iso_test(with_service(*tire, service));
@@ -203,9 +222,6 @@ TireLabel make_label(const LabelInput& input) {
   if (!tire.has_value() && service.tire_class == models::TireClass::kC1 && service.is_heavy()) {
     label.warnings.push_back(
         fmt::format("load index {} is above that of passenger car tires: is the class C3?", service.load_index));
-  }
-  if (const auto doubt = models::doubt_class_by_rrc(service.tire_class, rrc, service.is_severe_snow)) {
-    label.warnings.push_back(*doubt);
   }
   label.text = format_label(label, input.rrc_N_per_kN.has_value() ? "given" : "simulated test of ISO 28580");
   label.json = to_text(make_label_json(label));

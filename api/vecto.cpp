@@ -32,7 +32,12 @@ double find_declared_rrc(const VectoTireInput& input, const models::TireFile& ti
                          std::vector<std::string>& warnings) {
   if (input.rrc_N_per_kN.has_value()) {
     warnings = tire.list_class_doubts();
-    return models::round_declared_rrc(read_declared_rrc(*input.rrc_N_per_kN));
+    const double rrc = models::round_declared_rrc(read_declared_rrc(*input.rrc_N_per_kN));
+    if (tire.service.has_value()) {
+      const auto doubt = models::doubt_class_by_rrc(tire.service->tire_class, rrc, tire.service->is_severe_snow);
+      if (doubt.has_value()) warnings.push_back(*doubt);
+    }
+    return rrc;
   }
   const scenarios::StatedIsoTest test = scenarios::simulate_stated_iso_test(tire);
   warnings = test.warnings;
@@ -106,10 +111,6 @@ VectoTireFile make_vecto_tire(const VectoTireInput& input) {
   made.rrc = component.rrc;
   made.load_N = component.load_N;
   if (const auto doubt = doubt_dimension(component.dimension, tire)) made.warnings.push_back(*doubt);
-  if (tire.service.has_value()) {
-    const auto doubt = models::doubt_class_by_rrc(tire.service->tire_class, made.rrc, tire.service->is_severe_snow);
-    if (doubt.has_value()) made.warnings.push_back(*doubt);
-  }
   return made;
 }
 

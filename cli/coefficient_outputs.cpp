@@ -16,8 +16,11 @@ void CoefficientOutputs::add_to(CLI::App& command) {
   add_output_option(command, "--fastsim", fastsim, "Likewise: wheel_rr_coef of FASTSim");
   add_output_option(command, "--co2mpas", co2mpas, "Likewise: rolling_resistance_coeff, f0, f1, f2 of CO2MPAS");
   command.add_option("--tire-radius", how.tire_radius_m, "Unloaded radius of the tire, m, for --tir")
+      ->needs("--tir")
       ->check(shown_range(0.05, 2.0));
-  command.add_option("--tires", how.tires, "Tires that share f0, f1, f2 [4]")->check(shown_range(1, 100));
+  command.add_option("--tires", how.tires, "Tires that share f0, f1, f2 of --co2mpas [4]")
+      ->needs("--co2mpas")
+      ->check(shown_range(1, 100));
 }
 
 std::vector<OutputFile> CoefficientOutputs::list_files() const {

@@ -181,6 +181,18 @@ void require_utf8(int argc, char** argv) {
   }
 }
 
+/// Throws InputError for an option that is given without a text: it would have no effect, unsaid. A file to be written
+/// has its own message.
+void require_texts(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::vector<std::string>& texts = option->results();
+    if (option->get_positional() || std::find(texts.begin(), texts.end(), "") == texts.end()) continue;
+    throw usage_error(option->get_name() + " is empty", option->get_name(), "",
+                      fmt::format("a text, or no {}", option->get_name()));
+  }
+  for (const CLI::App* subcommand : app.get_subcommands()) require_texts(*subcommand);
+}
+
 /// Calls `make_and_run`. What it throws becomes a message and an exit status.
 int answer_errors(int argc, char** argv, int (*make_and_run)(int argc, char** argv)) {
   const VisibleText out(std::cout);
@@ -229,6 +241,7 @@ int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return report("error", explain_usage_error(app, error, argc, argv), kInputError);
   }
+  require_texts(app);
   const int status = action();
   flush_standard_output();
   if (!std::cout) end_by_closed_pipe();

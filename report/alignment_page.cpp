@@ -95,7 +95,7 @@ Table make_check_table(const AlignmentResult& result, bool rules) {
 }
 
 Table make_control_table(const AlignmentResult& result) {
-  Table table{"Control tires: N/kN", {"tire", "n", "mean", "sd", "limits of 3 sd", "outside"}, {}};
+  Table table{"Control tires: N/kN", {"tire", "n", "mean", "sd", "limits", "outside"}, {}};
   for (const ControlChart& chart : result.monitoring.charts) {
     const bool has_scatter = chart.rrc_N_per_kN.size() > 1;
     table.rows.push_back({chart.tire, fmt::format("{}", chart.rrc_N_per_kN.size()),
@@ -145,7 +145,7 @@ Block make_control_chart(const ControlChart& chart) {
   }
   Block block = make_curves({fmt::format("Days since {}", estimation::format_day(chart.time_s.front())), ""},
                             {"RRC of " + chart.tire, "N/kN"}, Json::array({points.finish(chart.tire)}),
-                            "Lines: mean and three standard deviations.");
+                            "Lines: mean and limits: three standard deviations, and half a step of the values.");
   block["marks"] = {chart.low_N_per_kN, chart.center_N_per_kN, chart.high_N_per_kN};
   return block;
 }

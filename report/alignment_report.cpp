@@ -31,11 +31,16 @@ ReportSection make_alignment_result(const estimation::AlignmentResult& result, c
                    {"sigma_m in N/kN (95 % interval)",
                     {values.number("/sigma_m_N_per_kN/value", ".3f"), values.number("/sigma_m_N_per_kN/ci95/0", ".3f"),
                      values.number("/sigma_m_N_per_kN/ci95/1", ".3f")}},
-                   values.field("First measurement", "/first_measurement"),
-                   values.field("Last measurement", "/last_measurement"),
-                   values.field("Valid until, unless the machine is changed or drifts", "/valid_until"),
-                   values.field("Judged on", "/judged_on"),
-                   make_field("Verdict", describe_alignment_verdict(result))}};
+                   values.field("First measurement of the machine", "/first_measurement"),
+                   values.field("Last measurement of the machine", "/last_measurement")}};
+  if (values.has("/last_measurement_of_reference")) {
+    form.fields.push_back(
+        values.field("Last measurement of the reference machine", "/last_measurement_of_reference"));
+  }
+  form.fields.push_back(values.field("Valid from", "/valid_from"));
+  form.fields.push_back(values.field("Valid until, unless the machine is changed or drifts", "/valid_until"));
+  form.fields.push_back(values.field("Judged on", "/judged_on"));
+  form.fields.push_back(make_field("Verdict", describe_alignment_verdict(result)));
   for (const Json& reason : values.json()["align_again_because"]) {
     form.fields.push_back(make_field("Align again", reason.get<std::string>()));
   }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "report/run_reports.h"
+#include "scenarios/common/readings.h"
 #include "scenarios/run/results.h"
 
 namespace rollrig::report {
@@ -116,8 +117,7 @@ std::optional<ReportTable> make_iso_methods(const ReportValues& values) {
 }
 
 ReportSection make_iso_results(const RunSpec& spec, const ReportValues& values) {
-  const auto& iso = spec.tire.iso_28580;
-  const double coefficient_per_K = iso.has_value() ? iso->ambient_coefficient_per_K : models::kAmbientCoefficient_per_K;
+  const double coefficient_per_K = scenarios::find_ambient_coefficient_per_K(spec);
   const std::size_t cycles = values.has("/result/cycles") ? values.json()["result"]["cycles"].size() : 0;
   ReportForm form{{make_field("Number of measurements", std::to_string(std::max<std::size_t>(1, cycles))),
                    values.field("Method of the standard", "/result/method"),

@@ -10,6 +10,7 @@
 #include "scenarios/common/iso_uncertainty.h"
 #include "scenarios/common/readings.h"
 #include "scenarios/common/settling.h"
+#include "sim/core/limits.h"
 
 namespace rollrig::scenarios::iso_28580 {
 
@@ -52,6 +53,10 @@ struct Settings : CycleSettings {
 
 /// Assumed: more than tires of class C1 lack after the standard's warm-up.
 constexpr double kTooShort = 0.02;
+
+/// Between the highest and the lowest F_r of the methods. Assumed: three times what a coast of a tire that is still
+/// warming differs by (docs/iso_28580.md).
+constexpr double kMostBetweenMethods = 0.03;
 
 struct Results {
   Cycle cycle;  // the measurement: the last cycle, which is the warm-up's own end when no measurement cycle follows
@@ -289,31 +294,61 @@ std::vector<Cycle> find_test_cycles(const Settings& settings, const RunSpec& spe
 
 /// Where a test differs from the one that the label is defined by; empty where it does not. A load index of 0 is one
 /// that is not known.
-/// Source  UN R117 Annex 6: drum of 1.7 m at least, its surface as warm as the air, air of 20 to 30 degC; second-hand.
-///         The last minute is averaged: §3.2.7
+/// Source  UN R117 Annex 6: drum of 1.7 m at least, its surface as warm as the air, air of 20 to 30 degC, skim load;
+///         second-hand. The last minute is averaged: §3.2.7
 std::string find_other_condition(const Settings& settings, const RunSpec& spec, const models::IsoTestOfClass& asked) {
-  constexpr double kSame = 0.01;  // Assumed: files round
+  constexpr double kSame = 0.01;  // Assumed: files round load, pressure and speed, such as 33350 N for 33343 N
   constexpr double kLeastDiameter_m = 1.7;
   constexpr double kSurfaceTolerance_K = 5.0;  // Assumed: changes RRc by some 1 %
   constexpr double kLongestWindow_s = 60.0;
   if (!models::is_drum(spec.rig.kind->traits)) return "machine";
-  if (spec.rig.drum.diameter_m < kLeastDiameter_m * (1.0 - kSame)) return "drum's diameter";
-  const auto differs = [](double is, double wanted) { return std::abs(is / wanted - 1.0) > kSame; };
+  if (!is_at_least(spec.rig.drum.diameter_m, kLeastDiameter_m)) return "drum's diameter";
+  const auto differs = [](double is, double wanted) { return !is_at_most(std::abs(is / wanted - 1.0), kSame); };
   const DrumConditions& conditions = settings.conditions;
   if (spec.tire.service->load_index != 0 && differs(*conditions.load_N, asked.load_N)) return "load";
   if (asked.pressure_Pa.has_value() && differs(*conditions.pressure_Pa, *asked.pressure_Pa)) return "pressure";
   if (differs(conditions.speed_m_s, asked.speed_m_s)) return "speed";
   if (!models::is_ambient_correction_valid(*conditions.ambient_K)) return "ambient temperature";
   if (conditions.surface_K.has_value() &&
-      std::abs(*conditions.surface_K - *conditions.ambient_K) > kSurfaceTolerance_K) {
+      !is_at_most(std::abs(*conditions.surface_K - *conditions.ambient_K), kSurfaceTolerance_K)) {
     return "drum's surface temperature";
   }
-  if (conditions.window_s > kLongestWindow_s * (1.0 + kSame)) return "averaging window (window_s)";
-  if (conditions.soak_s < asked.soak_s * (1.0 - kSame)) return "soak";
-  if (*settings.warm_up_s < asked.warm_up_s * (1.0 - kSame)) return "warm-up";
+  if (!is_at_most(conditions.window_s, kLongestWindow_s)) return "averaging window (window_s)";
+  if (!is_at_least(conditions.soak_s, asked.soak_s)) return "soak";
+  if (!is_at_least(*settings.warm_up_s, asked.warm_up_s)) return "warm-up";
   // The last cycle is the measurement, and the tire has cooled down in the skim test before it.
-  const bool is_short = settings.measurement_cycles > 0 && settings.measurement_s < asked.warm_up_s * (1.0 - kSame);
-  return is_short ? "duration of the measurement cycles" : "";
+  const bool is_short = settings.measurement_cycles > 0 && !is_at_least(settings.measurement_s, asked.warm_up_s);
+  if (is_short) return "duration of the measurement cycles";
+  if (!is_at_most(spec.rig.skim.load_N, asked.highest_skim_load_N)) return "skim load";
+  const double used_per_K = find_ambient_coefficient_per_K(spec), asked_per_K = asked.ambient_coefficient_per_K;
+  const bool is_asked = is_at_least(used_per_K, asked_per_K) && is_at_most(used_per_K, asked_per_K);
+  return is_asked ? "" : "coefficient of the correction to 25 degC (K_t)";
+}
+
+/// A warning where more of the tire's own loss is in the skim reading than the test allows.
+std::optional<std::string> doubt_skim_load(const RunSpec& spec) {
+  if (!spec.tire.service.has_value()) return std::nullopt;
+  const models::ServiceDescription& service = *spec.tire.service;
+  const double highest_N =
+      models::find_iso_test(service, spec.tire.values.geometry.rim_diameter_m).highest_skim_load_N;
+  if (is_at_most(spec.rig.skim.load_N, highest_N)) return std::nullopt;
+  return fmt::format(
+      "the skim load of {:g} N is above the {:g} N that the standard allows for class {}: the skim reading has more of "
+      "the tire's own loss, and RRc is too low",
+      spec.rig.skim.load_N, highest_N, name_of(service.tire_class));
+}
+
+/// A warning where one method has an error of the machine that the others do not have.
+std::optional<std::string> doubt_methods(const std::vector<MethodResult>& methods) {
+  const auto [low, high] = std::minmax_element(methods.begin(), methods.end(), [](const auto& a, const auto& b) {
+    return a.rolling_resistance_N < b.rolling_resistance_N;
+  });
+  const double between_N = high->rolling_resistance_N - low->rolling_resistance_N;
+  if (is_at_most(between_N, kMostBetweenMethods * std::abs(high->rolling_resistance_N))) return std::nullopt;
+  return fmt::format(
+      "the methods differ by more than {:.0f} %: F_r is {:.2f} N by {} and {:.2f} N by {}. Is the scale of the torque, "
+      "the angle of the force cell or the inertia of the drum wrong?",
+      1e2 * kMostBetweenMethods, low->rolling_resistance_N, low->name, high->rolling_resistance_N, high->name);
 }
 
 void add_label(const Settings& settings, const RunSpec& spec, Results& results) {
@@ -340,6 +375,13 @@ void add_label(const Settings& settings, const RunSpec& spec, Results& results) 
     if (models::round_declared_rrc(rrc) <= limit.rrc + 1e-9) stage = std::max(stage, limit.stage);
   }
   results.approval_stage = stage;
+}
+
+/// A question where a tire of the class hardly has this RRc.
+std::optional<std::string> doubt_rrc(const RunSpec& spec, const Results& results) {
+  if (!spec.tire.service.has_value()) return std::nullopt;
+  return models::doubt_class_by_rrc(spec.tire.service->tire_class, results.corrected_rrc,
+                                    spec.tire.service->is_severe_snow);
 }
 
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
@@ -370,6 +412,9 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     }
   }
   for (const std::string& doubt : spec.tire.list_class_doubts()) outcome.warnings.push_back(doubt);
+  for (const auto& doubt : {doubt_skim_load(spec), doubt_methods(results.methods), doubt_rrc(spec, results)}) {
+    if (doubt.has_value()) outcome.warnings.push_back(*doubt);
+  }
   if (!models::is_ambient_correction_valid(ambient_K)) {
     outcome.warnings.push_back("the correction to 25 degC holds from 20 to 30 degC only");
   }

@@ -63,7 +63,7 @@ class TireRigKind : public KindWithRig {
     wrong.push_back({force_, 1e3, 0.0, std::string("holds ") + words_.kilo});
     wrong.push_back({force_, 3.6, 0.0, "is too small by a factor of 3.6", 0.2});
     wrong.push_back({force_, -1.0, 0.0, "has the other sign: positive drives"});
-    for (WrongUnit& one : list_mixed_up_lever(force_, set.rig->lever_m(), "holds the force at the surface, in N")) {
+    for (WrongUnit& one : list_mixed_up_lever(force_, set.rig->lever_m(), describe_force(*set.rig))) {
       wrong.push_back(std::move(one));
     }
     return wrong;
@@ -76,6 +76,16 @@ class TireRigKind : public KindWithRig {
   }
 
  private:
+  /// With a lever near 0.5 m, a torque is as much too large where the rig file has half of the drum's diameter.
+  static std::string describe_force(const rigs::RigFile& rig) {
+    constexpr double kNear = 0.2;  // Assumed: of the logarithm, by which neither can be told from the other
+    const std::string force = "holds the force at the surface, in N";
+    const bool is_near = models::is_drum(rig.kind->traits) && std::abs(std::log(2.0 * rig.lever_m())) < kNear;
+    if (!is_near) return force;
+    return force + fmt::format(", or the rig file has the radius of the drum as its diameter, {:g} m",
+                               2.0 * rig.lever_m());
+  }
+
   Quantity force_;
   Words words_;
 };

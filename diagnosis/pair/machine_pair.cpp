@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 #include "diagnosis/checks/set_checks.h"
 #include "diagnosis/findings/gap.h"
@@ -89,27 +92,83 @@ double find_still_share(const std::vector<double>& force) {
   return rows > 0.0 ? still / rows : 1.0;
 }
 
-/// Whether most rows of the shorter run are, at the same time, rows of the other: rows may have been left out or
-/// changed. Coarse readings are equal by chance, about as often as those of successive rows of one run.
-bool is_same_recording(const measurements::MeasuredRun& a, const measurements::MeasuredRun& b, const Quantity& force) {
-  constexpr double kMost = 0.5;  // Assumed: of the rows
-  if (!a.has(force) || !b.has(force)) return false;
-  const std::vector<double>& first = a.column(force);
-  const std::vector<double>& second = b.column(force);
-  double equal = 0.0;
-  for (std::size_t i = 0, k = 0; i < first.size() && k < second.size();) {
-    const double from_a_s = a.time_s[i], from_b_s = b.time_s[k];
-    if (from_a_s == from_b_s && first[i] == second[k]) equal += 1.0;
-    if (from_a_s <= from_b_s) ++i;
-    if (from_b_s <= from_a_s) ++k;
+/// A column of a run, and the times of its rows.
+struct TimedColumn {
+  const std::vector<double>& time_s;
+  const std::vector<double>& values;
+
+  double count() const {
+    return static_cast<double>(
+        std::count_if(values.begin(), values.end(), [](double value) { return !std::isnan(value); }));
   }
-  const auto count = [](const std::vector<double>& values) {
-    return static_cast<double>(std::count_if(values.begin(), values.end(), [](double x) { return !std::isnan(x); }));
+};
+
+/// How many rows of both are equal to the digit, with the second one's times later by a shift.
+double count_equal_rows(const TimedColumn& a, const TimedColumn& b, double shift_s) {
+  constexpr double kSameTime_s = 1e-6;
+  double equal = 0.0;
+  for (std::size_t i = 0, k = 0; i < a.values.size() && k < b.values.size();) {
+    const double later_s = b.time_s[k] - shift_s - a.time_s[i];
+    const bool is_one_time = std::abs(later_s) <= kSameTime_s;
+    if (is_one_time && a.values[i] == b.values[k]) equal += 1.0;
+    if (is_one_time || later_s > 0.0) ++i;
+    if (is_one_time || later_s < 0.0) ++k;
+  }
+  return equal;
+}
+
+/// The shift by which most stretches of four different readings of the second are among the first 1000 of the first
+/// column; 0 where there are none.
+double find_time_shift_s(const TimedColumn& a, const TimedColumn& b) {
+  constexpr std::size_t kStretch = 4;
+  using Stretch = std::array<double, kStretch>;
+  const auto read_stretch = [](const TimedColumn& of, std::size_t at) -> std::optional<Stretch> {
+    Stretch stretch{};
+    for (std::size_t i = 0; i < kStretch; ++i) {
+      stretch[i] = of.values[at + i];
+      if (std::isnan(stretch[i]) || (i > 0 && stretch[i] == stretch[i - 1])) return std::nullopt;
+    }
+    return stretch;
   };
-  const double rows = std::min(count(first), count(second));
-  if (!(rows > 0.0)) return false;
-  const double by_chance = std::max(find_still_share(first), find_still_share(second));
+  std::map<Stretch, double> times_s;
+  constexpr std::size_t kMostStretches = 1000;
+  for (std::size_t i = 0; i + kStretch <= a.values.size() && times_s.size() < kMostStretches; ++i) {
+    if (const auto stretch = read_stretch(a, i)) times_s.emplace(*stretch, a.time_s[i]);
+  }
+  constexpr double kSteps_per_s = 1e4;  // finer than clocks of recordings
+  std::map<long, std::size_t> counts;
+  for (std::size_t i = 0; i + kStretch <= b.values.size(); ++i) {
+    const auto stretch = read_stretch(b, i);
+    const auto found = stretch.has_value() ? times_s.find(*stretch) : times_s.end();
+    if (found != times_s.end()) ++counts[std::lround(kSteps_per_s * (b.time_s[i] - found->second))];
+  }
+  const auto most = std::max_element(counts.begin(), counts.end(),
+                                     [](const auto& x, const auto& y) { return x.second < y.second; });
+  return most == counts.end() ? 0.0 : static_cast<double>(most->first) / kSteps_per_s;
+}
+
+/// Whether most rows of the shorter column are, at the same time or later by a constant, rows of the other: rows may
+/// have been left out or changed. Coarse readings are equal by chance, about as often as those of successive rows of
+/// one run.
+bool is_same_column(const TimedColumn& a, const TimedColumn& b, double most_still) {
+  constexpr double kMost = 0.5;  // Assumed: of the rows
+  const double rows = std::min(a.count(), b.count());
+  const double by_chance = std::max(find_still_share(a.values), find_still_share(b.values));
+  if (!(rows > 0.0) || by_chance > most_still) return false;
+  const double equal = std::max(count_equal_rows(a, b, 0.0), count_equal_rows(a, b, find_time_shift_s(a, b)));
   return equal == rows || equal / rows > std::max(kMost, 0.5 * (1.0 + by_chance));
+}
+
+/// Whether a channel of one run is a copy of that of the other. Of the two channels of the tire, one that hardly changes
+/// says nothing: both machines may hold it at one value.
+bool is_same_recording(const measurements::MeasuredRun& a, const measurements::MeasuredRun& b, const Quantity& force) {
+  constexpr double kMostStill = 0.9;  // Assumed: of rows that are equal to the one before
+  const auto is_same = [&](const Quantity& channel, double most_still) {
+    if (!a.has(channel) || !b.has(channel)) return false;
+    return is_same_column({a.time_s, a.column(channel)}, {b.time_s, b.column(channel)}, most_still);
+  };
+  return is_same(force, 1.0) || is_same(models::quantities::kLinerTemperature, kMostStill) ||
+         is_same(models::quantities::kCavityPressure, kMostStill);
 }
 
 void require_own_recordings(const MeasurementSet& a, const MeasurementSet& b) {

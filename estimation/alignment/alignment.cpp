@@ -11,6 +11,7 @@
 #include "estimation/alignment/alignment_doubts.h"
 #include "measurements/logs/time_stamps.h"
 #include "sim/core/error.h"
+#include "sim/core/limits.h"
 #include "sim/core/text.h"
 
 namespace rollrig::estimation {
@@ -39,6 +40,10 @@ double calc_sd_of_mean(double sd, const std::vector<std::vector<double>>& groups
   return std::max(sd * std::sqrt(inverse / static_cast<double>(groups.size())), calc_rounding_sd(step));
 }
 
+bool are_equal(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [&values](double value) { return value == values.front(); });
+}
+
 void fit_machines(const AlignmentFile& file, AlignmentResult& result) {
   std::vector<double> x, y;
   for (const AlignmentTire& tire : file.tires) {
@@ -64,6 +69,11 @@ void fit_machines(const AlignmentFile& file, AlignmentResult& result) {
   if (!(x.back() > x.front())) {
     throw InputError({"all tires have one measured value", file.path, 0, "tire", fmt::format("{:g} N/kN", x.front()),
                       "tires of different rolling resistance", ""});
+  }
+  if (are_equal(y)) {
+    throw InputError({"all tires have one reference value", file.path, 0, "tire", fmt::format("{:g} N/kN", y.front()),
+                      "the reference value of each tire: tires of different rolling resistance have different ones",
+                      ""});
   }
   result.fit = fit_line(x, y, repeats);
   if (result.fit.slope > 0.0) return;
@@ -94,6 +104,22 @@ std::size_t count_fewest(const AlignmentFile& file, TireMeasurements AlignmentTi
   return fewest;
 }
 
+/// The rounding of the reference values alone may not be as large as the scatter that a reference machine may have.
+void add_rounding_rule(const AlignmentFile& file, AlignmentResult& result) {
+  const double step = find_reference_step(file), most = file.rules.reference_sigma_N_per_kN;
+  const double rounding_sd = calc_rounding_sd(step);
+  result.checks.push_back({"rounding of the reference values",
+                           fmt::format("steps of {:g} N/kN, u = {:.3f} N/kN", step, rounding_sd),
+                           fmt::format("u <= {:g} N/kN, as sigma_m of a reference machine", most),
+                           "EU 2020/740 Annex V, 3; second-hand, for rounding Assumed", is_at_most(rounding_sd, most)});
+  constexpr double kSmallShare = 1.0 / 3.0;  // Assumed: adds 5 % to a standard deviation of the limit
+  if (!file.reference_machine.empty() || is_at_most(rounding_sd, kSmallShare * most)) return;
+  result.warnings.push_back(
+      fmt::format("the reference values have steps of {:g} N/kN, a standard uncertainty of {:.3f} N/kN: state more "
+                  "digits",
+                  step, rounding_sd));
+}
+
 void add_rules(const AlignmentFile& file, AlignmentResult& result) {
   const AlignmentRules& rules = file.rules;
   const double range = calc_range(result);
@@ -102,7 +128,7 @@ void add_rules(const AlignmentFile& file, AlignmentResult& result) {
                            true, true});
   result.checks.push_back({"range of RRC, before and after", fmt::format("{:.2f} N/kN", range),
                            fmt::format(">= {:g} N/kN ({})", rules.least_range_N_per_kN, rules.classes), kSection2,
-                           range >= rules.least_range_N_per_kN, true, true});
+                           is_at_least(range, rules.least_range_N_per_kN), true, true});
   const std::size_t kept = count_fewest(file, &AlignmentTire::candidate);
   result.checks.push_back({"measurements of each tire that are used", fmt::format("{}", kept),
                            fmt::format(">= {}, after the first", rules.measurements - 1), kSection5,
@@ -113,15 +139,17 @@ void add_rules(const AlignmentFile& file, AlignmentResult& result) {
                              fmt::format(">= {}, after the first", rules.measurements - 1), kSection5,
                              of_reference >= rules.measurements - 1, true, true});
   }
+  add_rounding_rule(file, result);
   result.needed_measurements = calc_measurements(rules, result.sigma_m.sd);
-  const bool is_repeatable = result.sigma_m.sd <= rules.sigma_m_N_per_kN;
+  const bool is_repeatable = is_at_most(result.sigma_m.sd, rules.sigma_m_N_per_kN);
   const bool has_enough = kept + 1 >= result.needed_measurements;
   result.checks.push_back(
       {"sigma_m", fmt::format("{:.3f} N/kN", result.sigma_m.sd),
        fmt::format("<= {:g} N/kN, or {} measurements of each tire", rules.sigma_m_N_per_kN, result.needed_measurements),
        kSection5, is_repeatable || has_enough});
   const LineFit& fit = result.fit;
-  const bool is_line = fit.lack_of_fit_p >= kNoLineLevel || fit.residual_sd <= kMostScatter_N_per_kN;
+  const bool is_line =
+      is_at_least(fit.lack_of_fit_p, kNoLineLevel) || is_at_most(fit.residual_sd, kMostScatter_N_per_kN);
   result.checks.push_back({"the line describes the tires",
                            fmt::format("{:.3f} N/kN about it, by repeats {:.3f} (p = {})", fit.residual_sd,
                                        fit.repeat_sd, format_p_value(fit.lack_of_fit_p, kNoLineLevel)),
@@ -161,7 +189,7 @@ void add_advice(const AlignmentFile& file, AlignmentResult& result) {
   advise("scatter of tires about the line",
          fmt::format("{:.3f} N/kN, by repeats {:.3f} (p = {})", fit.residual_sd, fit.repeat_sd,
                      format_p_value(fit.lack_of_fit_p, kLevel)),
-         level, fit.lack_of_fit_p >= kLevel);
+         level, is_at_least(fit.lack_of_fit_p, kLevel));
   const auto weigh = [](const LinePoint& point) {
     return std::abs(std::isfinite(point.studentized) ? point.studentized : point.residual);
   };
@@ -172,28 +200,78 @@ void add_advice(const AlignmentFile& file, AlignmentResult& result) {
   advise("largest residual",
          fmt::format("tire '{}': {:+.3f} N/kN (p = {})", file.tires[index].name, worst->residual,
                      format_p_value(worst->p_value, kLevel)),
-         level, worst->p_value >= kLevel);
+         level, is_at_least(worst->p_value, kLevel));
   if (result.sigma_l.has_value()) {
     const ScatterEstimate& sigma_l = *result.sigma_l;
     result.checks.push_back({"sigma_m of the reference machine",
                              fmt::format("{:.3f} N/kN ({:.3f} to {:.3f})", sigma_l.sd, sigma_l.low_95, sigma_l.high_95),
                              fmt::format("<= {:g} N/kN, or within the interval", file.rules.reference_sigma_N_per_kN),
-                             kSection3, sigma_l.low_95 <= file.rules.reference_sigma_N_per_kN, false});
+                             kSection3, is_at_most(sigma_l.low_95, file.rules.reference_sigma_N_per_kN), false});
   }
   const auto far = std::max_element(fit.points.begin(), fit.points.end(),
                                     [](const auto& a, const auto& b) { return a.leverage < b.leverage; });
   advise("largest leverage",
          fmt::format("tire '{}': {:.2f}", file.tires[static_cast<std::size_t>(far - fit.points.begin())].name,
                      far->leverage),
-         fmt::format("<= {:.2f}, twice the mean", 4.0 / p), far->leverage <= 4.0 / p);
+         fmt::format("<= {:.2f}, twice the mean", 4.0 / p), is_at_most(far->leverage, 4.0 / p));
   const double bend = fit.attenuation * fit.slope * 0.5 * (fit.points.back().x - fit.points.front().x);
   advise("bias of A2 by errors of the measured values",
          fmt::format("{:.2f} %, {:.3f} N/kN at the ends", -100.0 * fit.attenuation, bend),
-         fmt::format("<= {:g} N/kN", kMostBend_N_per_kN), bend <= kMostBend_N_per_kN);
+         fmt::format("<= {:g} N/kN", kMostBend_N_per_kN), is_at_most(bend, kMostBend_N_per_kN));
 }
 
 double calc_days_since(const ControlChart& chart, double day_s) {
   return std::floor(day_s / measurements::kDay_s) - std::floor(chart.time_s.back() / measurements::kDay_s);
+}
+
+/// What is not in control in a chart.
+std::string describe_out_of_control(const ControlChart& chart) {
+  if (chart.shift.has_value()) {
+    return fmt::format("their mean is by {:+.3f} N/kN another one from {} on", chart.shift->by_N_per_kN,
+                       format_day(chart.shift->from_s));
+  }
+  if (chart.outside.empty()) {
+    return fmt::format("{} measurements in a row on one side of their mean; measure it again", chart.longest_run);
+  }
+  return fmt::format("{} beyond the limits of three standard deviations, the first on {}",
+                     format_count(chart.outside.size(), "measurement"),
+                     format_day(chart.time_s[chart.outside.front()]));
+}
+
+/// `where`: the machine, in the words of the warning.
+void add_chart_warnings(const ControlMonitoring& monitoring, const std::string& where,
+                        std::vector<std::string>& warnings) {
+  for (const ControlChart& chart : monitoring.charts) {
+    if (!is_out_of_control(chart)) continue;
+    warnings.push_back(fmt::format("control tire '{}'{}: {}", chart.tire, where, describe_out_of_control(chart)));
+  }
+}
+
+std::string describe_drift(const ControlDrift& drift) {
+  return fmt::format("drift by {:+.3f} N/kN a year ({:+.3f} to {:+.3f})", drift.N_per_kN_per_year, drift.low_95,
+                     drift.high_95);
+}
+
+/// The reference machine's own: whether it holds is its laboratory's to judge.
+void add_reference_monitoring(const AlignmentFile& file, AlignmentResult& result) {
+  result.reference_monitoring = watch_control_tires(file.reference_controls);
+  const std::string where = fmt::format(" on the reference machine '{}'", file.reference_machine);
+  add_chart_warnings(result.reference_monitoring, where, result.warnings);
+  if (!has_drift(result.reference_monitoring)) return;
+  result.warnings.push_back(
+      fmt::format("the control tires{} {}: ask its laboratory whether its values still hold", where,
+                  describe_drift(*result.reference_monitoring.drift)));
+}
+
+/// Rows that no machine of the alignment has.
+void add_unused_rows(const AlignmentFile& file, std::vector<std::string>& warnings) {
+  for (const UnusedRows& unused : file.unused) {
+    const std::string nearest = nearest_name(unused.machine, {file.machine, file.reference_machine});
+    warnings.push_back(fmt::format(
+        "{} of machine '{}' {} not used, {} of a control tire: line {}{}", format_count(unused.lines.size(), "row"),
+        unused.machine, unused.lines.size() == 1 ? "is" : "are", unused.controls, fmt::join(unused.lines, ", "),
+        nearest.empty() ? "" : fmt::format(". Is the machine '{}'?", nearest)));
+  }
 }
 
 void add_monitoring(const AlignmentFile& file, AlignmentResult& result) {
@@ -202,26 +280,17 @@ void add_monitoring(const AlignmentFile& file, AlignmentResult& result) {
     result.checks.push_back({fmt::format("control tire '{}': days between measurements", chart.tire),
                              fmt::format("{:.0f} at most, until {}", gap_days, format_day(result.judged_on_s)),
                              fmt::format("<= {:g}", kMostControlDays), "UN R117 Annex 6; second-hand",
-                             gap_days <= kMostControlDays, false});
+                             is_at_most(gap_days, kMostControlDays), false});
     if (chart.rrc_N_per_kN.size() < kLeastControlMeasurements) {
       result.warnings.push_back(fmt::format("control tire '{}' has {}: too few for limits of its own", chart.tire,
                                             format_count(chart.rrc_N_per_kN.size(), "measurement")));
-    } else if (chart.sd_N_per_kN == 0.0) {
+    } else if (are_equal(chart.rrc_N_per_kN)) {
       result.warnings.push_back(describe_equal_values(
           fmt::format("the {} values of control tire '{}'", chart.rrc_N_per_kN.size(), chart.tire),
           list_candidate_values(file)));
     }
   }
-  for (const ControlChart& chart : result.monitoring.charts) {
-    if (!is_out_of_control(chart)) continue;
-    result.warnings.push_back(
-        chart.outside.empty()
-            ? fmt::format("control tire '{}': {} measurements in a row on one side of their mean; measure it again",
-                          chart.tire, chart.longest_run)
-            : fmt::format("control tire '{}': {} beyond three standard deviations, the first on {}", chart.tire,
-                          format_count(chart.outside.size(), "measurement"),
-                          format_day(chart.time_s[chart.outside.front()])));
-  }
+  add_chart_warnings(result.monitoring, "", result.warnings);
   if (file.controls.empty()) {
     result.warnings.push_back("no control tire (use = control): whether the machine drifts is not known");
   }
@@ -250,9 +319,7 @@ void judge_validity(const AlignmentFile& file, const AlignmentInput& input, Alig
                     input.machine_changed));
   }
   if (has_drift(result.monitoring)) {
-    const ControlDrift& drift = *result.monitoring.drift;
-    result.due_because.push_back(fmt::format("the control tires drift by {:+.3f} N/kN a year ({:+.3f} to {:+.3f})",
-                                             drift.N_per_kN_per_year, drift.low_95, drift.high_95));
+    result.due_because.push_back("the control tires " + describe_drift(*result.monitoring.drift));
   }
   result.is_valid = result.due_because.empty() &&
                     std::all_of(result.checks.begin(), result.checks.end(),
@@ -275,7 +342,7 @@ std::optional<std::string> doubt_line(const char* A, const char* B, double slope
                                       double high) {
   const auto calc_change = [&](double value) { return (slope * value + offset) / value - 1.0; };
   const double most = std::max({std::abs(slope - 1.0), std::abs(calc_change(low)), std::abs(calc_change(high))});
-  if (most <= kMostChange) return std::nullopt;
+  if (is_at_most(most, kMostChange)) return std::nullopt;
   return fmt::format(
       "{} = {:.3f} and {} = {:.3f} N/kN change RRC by {:+.0f} % at {:.2f} N/kN and by {:+.0f} % at {:.2f} N/kN; "
       "machines seldom differ by more than {:.0f} %: are both values corrected to 25 degC and the 2 m drum, and in one "
@@ -337,6 +404,8 @@ AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& i
   result.monitoring = watch_control_tires(file.controls);
   judge_validity(file, input, result);
   add_monitoring(file, result);
+  add_reference_monitoring(file, result);
+  add_unused_rows(file, result.warnings);
   add_line_warnings(result);
   for (const std::string& doubt : list_value_doubts(file)) result.warnings.push_back(doubt);
   for (const std::string& doubt : list_line_doubts(file, result.fit, result.plain_repeats)) {

@@ -20,7 +20,8 @@ struct AlignmentResult {
   std::optional<ScatterEstimate> sigma_l;  // of the reference machine, where its measurements are there
   RepeatScatter plain_repeats;             // of the means, without the rounding of the values
   std::size_t needed_measurements = 4;     // of each tire, at this sigma_m
-  ControlMonitoring monitoring;
+  ControlMonitoring monitoring;            // of the candidate machine
+  ControlMonitoring reference_monitoring;  // of the reference machine
   std::vector<AlignmentCheck> checks;
   std::vector<std::string> due_because;  // reasons to align anew; empty: none
   double valid_until_s = 0.0;

@@ -14,6 +14,7 @@
 
 #include "measurements/logs/time_stamps.h"
 #include "models/tire/label_class.h"
+#include "sim/core/limits.h"
 #include "sim/core/text.h"
 
 namespace rollrig::estimation {
@@ -51,6 +52,14 @@ struct EqualCount {
     if (of == 0) return 1.0;
     return static_cast<double>(std::max<std::size_t>(equal, 1)) / static_cast<double>(of);
   }
+
+  /// The chance that so many more are all equal, of a share of which only this count is known.
+  /// Equation  prod_(k < n) (equal + 1 + k)/(of + 2 + k): every share is equally probable before the count
+  double calc_chance_of_all(std::size_t n) const {
+    double chance = 1.0;
+    for (std::size_t k = 0; k < n; ++k) chance *= static_cast<double>(equal + 1 + k) / static_cast<double>(of + 2 + k);
+    return chance;
+  }
 };
 
 /// Equal values among all pairs of measurements of one tire on one machine: by chance where values are coarse.
@@ -74,14 +83,36 @@ double calc_binomial_tail(double n, double p, double least) {
   return boost::math::cdf(boost::math::complement(boost::math::binomial_distribution<double>(n, p), least - 1.0));
 }
 
+/// The chance that a value stands among one other value of its tire, by how many values of a machine stand among the
+/// others of their tire on this machine. Not by pairs: where coarse values have few steps, most values stand there,
+/// though few pairs are equal.
+double calc_chance_among_others(const AlignmentFile& file) {
+  EqualCount among;
+  double others = 0.0;
+  for (const AlignmentTire& tire : file.tires) {
+    for (const TireMeasurements* side : {&tire.candidate, &tire.reference}) {
+      std::map<double, std::size_t> times;
+      for (const AlignmentMeasurement& one : side->all) ++times[one.rrc_N_per_kN];
+      if (side->all.size() < 2) continue;
+      for (const auto& [value, count] : times) {
+        among.of += count;
+        among.equal += count > 1 ? count : 0;
+        others += static_cast<double>(count * (side->all.size() - 1));
+      }
+    }
+  }
+  if (among.of == 0) return 1.0;
+  return 1.0 - std::pow(1.0 - among.share(), static_cast<double>(among.of) / others);
+}
+
 std::optional<std::string> doubt_copied_machine(const AlignmentFile& file) {
   if (file.reference_machine.empty()) return std::nullopt;
-  const double different = 1.0 - count_equal_pairs(file).share();
+  const double different = 1.0 - calc_chance_among_others(file);
   double values = 0.0, found = 0.0, found_by_chance = 0.0;
   for (const AlignmentTire& tire : file.tires) {
     std::set<double> reference;
     for (const AlignmentMeasurement& one : tire.reference.all) reference.insert(one.rrc_N_per_kN);
-    const double by_chance = 1.0 - std::pow(different, static_cast<double>(reference.size()));
+    const double by_chance = 1.0 - std::pow(different, static_cast<double>(tire.reference.all.size()));
     for (const double value : tire.candidate.used()) {
       values += 1.0;
       found += reference.count(value) > 0 ? 1.0 : 0.0;
@@ -118,16 +149,19 @@ std::vector<TireRound> list_rounds_by_day(const AlignmentFile& file, TireMeasure
   return rounds;
 }
 
-/// Equal values in successive rounds that are not equal as a whole.
+/// Equal values of each tire in any two rounds that are not equal as a whole.
 EqualCount count_equal_values(const std::vector<TireRound>& rounds) {
+  std::set<std::map<std::string, double>> different;
+  for (const TireRound& round : rounds) different.insert(round.values);
   EqualCount count;
-  for (std::size_t i = 1; i < rounds.size(); ++i) {
-    if (rounds[i].values == rounds[i - 1].values) continue;
-    for (const auto& [tire, value] : rounds[i].values) {
-      const auto before = rounds[i - 1].values.find(tire);
-      if (before == rounds[i - 1].values.end()) continue;
-      ++count.of;
-      if (before->second == value) ++count.equal;
+  for (auto later = different.begin(); later != different.end(); ++later) {
+    for (auto earlier = different.begin(); earlier != later; ++earlier) {
+      for (const auto& [tire, value] : *later) {
+        const auto before = earlier->find(tire);
+        if (before == earlier->end()) continue;
+        ++count.of;
+        if (before->second == value) ++count.equal;
+      }
     }
   }
   return count;
@@ -147,12 +181,12 @@ std::optional<std::string> doubt_copied_round(std::vector<TireRound> rounds, con
   rounds.erase(std::remove_if(rounds.begin(), rounds.end(),
                               [](const TireRound& round) { return round.values.size() < kLeastRoundTires; }),
                rounds.end());
-  const double equal = count_equal_values(rounds).share();
+  const EqualCount equal = count_equal_values(rounds);
   const double pairs = 0.5 * static_cast<double>(rounds.size()) * (static_cast<double>(rounds.size()) - 1.0);
   std::map<std::map<std::string, double>, const TireRound*> seen;
   for (const TireRound& round : rounds) {
     const auto [before, is_new] = seen.emplace(round.values, &round);
-    if (is_new || pairs * std::pow(equal, static_cast<double>(round.values.size())) > kCopiedRoundChance) continue;
+    if (is_new || pairs * equal.calc_chance_of_all(round.values.size()) > kCopiedRoundChance) continue;
     return fmt::format("{} have the same values{} on {} and on {}: real measurements scatter. Were they copied?",
                        format_count(round.values.size(), "tire"), show_on_machine(machine), show_days(*before->second),
                        show_days(round));
@@ -351,16 +385,14 @@ std::vector<std::string> list_line_doubts(const AlignmentFile& file, const LineF
 }
 
 std::string describe_equal_values(const std::string& subject, const std::vector<double>& values) {
-  constexpr double kRounding_N_per_kN = 1e-9;
-  const double of_decimals = find_value_step(values);
-  const double step = of_decimals < kCoarseStep_N_per_kN ? find_greatest_step(values) : of_decimals;
-  if (step < kCoarseStep_N_per_kN - kRounding_N_per_kN) {
+  const double step = find_value_step(values);
+  if (!is_at_least(step, kCoarseStep_N_per_kN)) {
     return fmt::format("{} are equal: real measurements scatter. Were they copied?", subject);
   }
   return fmt::format(
       "{} are equal: a step of {:g} N/kN is too coarse to show their scatter. State more digits; the uncertainty has "
-      "the rounding of the decimals, {:.3f} N/kN",
-      subject, step, calc_rounding_sd(of_decimals));
+      "the rounding, {:.3f} N/kN",
+      subject, step, calc_rounding_sd(step));
 }
 
 }  // namespace rollrig::estimation

@@ -89,20 +89,50 @@ auto& find_or_add(Tires& tires, const std::string& name) {
   return tires.back();
 }
 
+void sort_controls(std::vector<ControlTire>& controls) {
+  for (ControlTire& control : controls) {
+    std::stable_sort(control.measurements.begin(), control.measurements.end(),
+                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  }
+}
+
 void sort_rows(const std::vector<AlignmentRow>& rows, AlignmentFile& file) {
   for (const AlignmentRow& row : rows) {
     const bool is_candidate = row.machine == file.machine;
-    if (row.is_control && is_candidate) {
-      find_or_add(file.controls, row.tire).measurements.push_back(row.measurement);
+    if (!is_candidate && row.machine != file.reference_machine) continue;
+    if (row.is_control) {
+      std::vector<ControlTire>& controls = is_candidate ? file.controls : file.reference_controls;
+      find_or_add(controls, row.tire).measurements.push_back(row.measurement);
+      continue;
     }
-    if (row.is_control || (!is_candidate && row.machine != file.reference_machine)) continue;
     AlignmentTire& tire = find_or_add(file.tires, row.tire);
     tire.tire_class = row.tire_class;
     add_measurement(is_candidate ? tire.candidate : tire.reference, row.measurement);
   }
-  for (ControlTire& control : file.controls) {
-    std::stable_sort(control.measurements.begin(), control.measurements.end(),
-                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  sort_controls(file.controls);
+  sort_controls(file.reference_controls);
+}
+
+/// The rows of other machines. A machine that measured alignment tires often enough for an alignment is one of its own;
+/// another one may be a name that is written in two ways.
+void find_unused_rows(const CsvTable& table, const std::vector<AlignmentRow>& rows, AlignmentFile& file) {
+  std::map<std::string, UnusedRows> by_machine;
+  std::map<std::string, std::map<std::string, std::size_t>> counts;
+  for (const AlignmentRow& row : rows) {
+    if (row.machine == file.machine || row.machine == file.reference_machine) continue;
+    UnusedRows& unused = by_machine[row.machine];
+    unused.machine = row.machine;
+    unused.lines.push_back(table.line_of(row.row));
+    unused.controls += row.is_control ? 1 : 0;
+    if (!row.is_control) ++counts[row.machine][row.tire];
+  }
+  for (const auto& [machine, unused] : by_machine) {
+    const std::map<std::string, std::size_t>& tires = counts[machine];
+    const bool is_machine =
+        !tires.empty() && std::all_of(tires.begin(), tires.end(), [&file](const auto& tire) {
+          return tire.second + 1 >= file.rules.measurements;
+        });
+    if (!is_machine) file.unused.push_back(unused);
   }
 }
 
@@ -112,8 +142,13 @@ void drop_first_measurement(const AlignmentFile& file, const std::string& tire, 
   if (!first_excluded && !measured.all.empty()) measured.all.front().is_used = false;
   const std::size_t used = measured.used().size();
   if (used >= 2) return;
-  throw InputError({fmt::format("tire '{}' has too few measurements{}", tire,
-                                machine.empty() ? "" : fmt::format(" on machine '{}'", machine)),
+  std::string not_used;
+  for (const UnusedRows& unused : file.unused) {
+    not_used += fmt::format("; {} of machine '{}' {} not used", format_count(unused.lines.size(), "row"), unused.machine,
+                            unused.lines.size() == 1 ? "is" : "are");
+  }
+  throw InputError({fmt::format("tire '{}' has too few measurements{}{}", tire,
+                                machine.empty() ? "" : fmt::format(" on machine '{}'", machine), not_used),
                     file.path, 0, "tire", format_count(measured.all.size(), "measurement"),
                     fmt::format("{} of each tire, the first of which is not used; at the least {}, for a mean and its "
                                 "scatter{}",
@@ -170,6 +205,10 @@ ReferenceValues read_reference_file(const std::string& path, const std::vector<A
 
 /// Tires that only one of the two sides has.
 void require_both_sides(const AlignmentFile& file, const std::string& where) {
+  std::vector<std::string> of_reference_alone;
+  for (const AlignmentTire& tire : file.tires) {
+    if (tire.candidate.all.empty()) of_reference_alone.push_back(tire.name);
+  }
   for (const AlignmentTire& tire : file.tires) {
     if (tire.candidate.all.empty()) {
       throw InputError({fmt::format("tire '{}' was not measured on the candidate machine", tire.name), file.path, 0,
@@ -180,7 +219,7 @@ void require_both_sides(const AlignmentFile& file, const std::string& where) {
                         fmt::format("one for each alignment tire: measurements of --reference-machine, a column {} or "
                                     "{}, or a file of --reference-values; a control tire has 'control' in column use",
                                     kReferenceColumn, kAssignedColumn),
-                        ""});
+                        nearest_name(tire.name, of_reference_alone)});
     }
   }
 }
@@ -297,6 +336,7 @@ AlignmentFile read_alignment_file(const AlignmentInput& input) {
   file.rules = find_rules(table, rows);
   choose_machines(table, rows, input, file);
   sort_rows(rows, file);
+  find_unused_rows(table, rows, file);
   if (file.tires.empty()) {
     throw InputError({"the file has no measurement of an alignment tire", file.path, 0, "use", "",
                       fmt::format("measurements of at least {} alignment tires", file.rules.least_tires), ""});

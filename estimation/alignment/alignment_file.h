@@ -28,10 +28,17 @@ struct AlignmentTire {
   double reference_N_per_kN = 0;  // mean of these, or as given
 };
 
-/// A control tire on the candidate machine, in the order of time.
+/// A control tire on one machine, in the order of time.
 struct ControlTire {
   std::string name;
   std::vector<AlignmentMeasurement> measurements;
+};
+
+/// Rows of a machine that is neither candidate nor reference, and measured too little to be one.
+struct UnusedRows {
+  std::string machine;
+  std::vector<int> lines;
+  std::size_t controls = 0;  // of control tires
 };
 
 struct AlignmentFile {
@@ -41,7 +48,9 @@ struct AlignmentFile {
   bool is_assigned = false;       // values of the network, so that A1 and B1 are within
   AlignmentRules rules;
   std::vector<AlignmentTire> tires;  // by mean on the candidate machine
-  std::vector<ControlTire> controls;
+  std::vector<ControlTire> controls;            // of the candidate machine
+  std::vector<ControlTire> reference_controls;  // of the reference machine
+  std::vector<UnusedRows> unused;
   double first_s = 0.0, last_s = 0.0;  // of the alignment tires on the candidate machine
   double newest_s = 0.0;               // of all rows of that machine
   double complete_s = 0.0;             // last measurement that the alignment uses, on either machine

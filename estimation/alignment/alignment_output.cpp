@@ -64,6 +64,9 @@ Json alignment_json(const ControlChart& chart) {
                {"last_measurement", format_day(chart.time_s.back())},
                {"longest_run_on_one_side", chart.longest_run},
                {"largest_gap_days", chart.largest_gap_days}};
+  if (chart.shift.has_value()) {
+    json["shift"] = {{"from", format_day(chart.shift->from_s)}, {"by_N_per_kN", chart.shift->by_N_per_kN}};
+  }
   json["outside"] = make_list(chart.outside, [&chart](std::size_t i) {
     return Json{{"date", format_day(chart.time_s[i])}, {"rrc_N_per_kN", chart.rrc_N_per_kN[i]}};
   });
@@ -80,6 +83,12 @@ Json make_monitoring_json(const ControlMonitoring& monitoring) {
                    {"p", drift.p_value},
                    {"over_time_N_per_kN", drift.over_time_N_per_kN}};
   return json;
+}
+
+double find_last_of_reference_s(const AlignmentFile& file) {
+  double last_s = 0.0;
+  for (const AlignmentTire& tire : file.tires) last_s = std::max(last_s, tire.reference.all.back().time_s);
+  return last_s;
 }
 
 /// A key of a stored alignment, which may lie in an object: "line.A2.value".
@@ -198,6 +207,9 @@ Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& resul
                                               : "reference machine";
   json["first_measurement"] = format_day(file.first_s);
   json["last_measurement"] = format_day(file.last_s);
+  if (!file.reference_machine.empty()) {
+    json["last_measurement_of_reference"] = format_day(find_last_of_reference_s(file));
+  }
   json["valid_from"] = format_day(std::max(file.last_s, file.complete_s));
   json["valid_until"] = format_day(result.valid_until_s);
   json["judged_on"] = format_day(result.judged_on_s);
@@ -226,6 +238,9 @@ Json make_alignment_json(const AlignmentFile& file, const AlignmentResult& resul
                 {"source", check.source}, {"met", check.is_met},  {"rule", check.is_rule}};
   });
   if (!result.monitoring.charts.empty()) json["monitoring"] = make_monitoring_json(result.monitoring);
+  if (!result.reference_monitoring.charts.empty()) {
+    json["reference_monitoring"] = make_monitoring_json(result.reference_monitoring);
+  }
   if (!result.warnings.empty()) json["warnings"] = result.warnings;
   return json;
 }

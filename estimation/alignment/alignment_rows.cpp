@@ -13,6 +13,7 @@
 #include "estimation/run_checks/robust_statistics.h"
 #include "measurements/logs/time_stamps.h"
 #include "sim/core/error.h"
+#include "sim/core/limits.h"
 #include "sim/core/text.h"
 
 namespace rollrig::estimation {
@@ -100,7 +101,7 @@ void require_like_values(const CsvTable& table, const std::vector<AlignmentRow>&
   for (const AlignmentRow& row : rows) {
     const double median = calc_median(by_tire[row.tire]);
     const double value = row.measurement.rrc_N_per_kN;
-    if (std::max(value / median, median / value) <= kMostRatio) continue;
+    if (is_at_most(std::max(value / median, median / value), kMostRatio)) continue;
     throw table.cell_error(row.row, find_value_column(table),
                            fmt::format("this value is far from the others of tire '{}'", row.tire),
                            fmt::format("within a factor of {:g} of their median, {:.4g} N/kN", kMostRatio, median));

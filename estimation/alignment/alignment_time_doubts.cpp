@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "estimation/alignment/alignment_doubts.h"
 #include "measurements/logs/time_stamps.h"
@@ -16,6 +17,8 @@ namespace {
 
 constexpr double kMinute_s = 60.0;
 constexpr double kMostDaysBetween = 365.0;  // Assumed: tires age. From one machine's last to the other's first
+constexpr double kMostGapOfPart_days = 60.0;  // Assumed: between the measurements of some tires and the others
+constexpr double kMostGap_days = 180.0;       // Assumed: between any two measurements, one after the other
 
 /// Least times of a test [s].
 struct LeastTestTimes {
@@ -50,16 +53,87 @@ void add_timed(const std::string& tire, const std::vector<AlignmentMeasurement>&
   }
 }
 
-/// All measurements on one machine, in the order of time.
+void sort_timed(std::vector<TimedMeasurement>& measured) {
+  std::stable_sort(measured.begin(), measured.end(), [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+}
+
+/// All measurements on one machine that have a time of day, in the order of time.
 std::vector<TimedMeasurement> list_timed(const AlignmentFile& file, TireMeasurements AlignmentTire::*side,
-                                         bool has_controls) {
+                                         const std::vector<ControlTire>& controls) {
   std::vector<TimedMeasurement> timed;
   for (const AlignmentTire& tire : file.tires) add_timed(tire.name, (tire.*side).all, timed);
-  if (has_controls) {
-    for (const ControlTire& control : file.controls) add_timed(control.name, control.measurements, timed);
-  }
-  std::sort(timed.begin(), timed.end(), [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  for (const ControlTire& control : controls) add_timed(control.name, control.measurements, timed);
+  sort_timed(timed);
   return timed;
+}
+
+/// Measurements of alignment tires on one machine between two long gaps.
+struct PartOfTime {
+  std::vector<TimedMeasurement> measured;
+  double gap_days = 0.0;  // the shorter one to the other parts
+
+  std::size_t count_tires() const {
+    std::set<std::string> tires;
+    for (const TimedMeasurement& one : measured) tires.insert(one.tire);
+    return tires.size();
+  }
+};
+
+std::vector<PartOfTime> split_at_gaps(const std::vector<TimedMeasurement>& measured) {
+  std::vector<PartOfTime> parts;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const double gap_days = i == 0 ? std::numeric_limits<double>::infinity()
+                                   : (measured[i].time_s - measured[i - 1].time_s) / measurements::kDay_s;
+    if (gap_days > kMostGapOfPart_days) {
+      if (i > 0) parts.back().gap_days = std::min(parts.back().gap_days, gap_days);
+      parts.push_back({{}, gap_days});
+    }
+    parts.back().measured.push_back(measured[i]);
+  }
+  return parts;
+}
+
+/// The measurements that lie far from the others: of some of the tires, or of all of them by half a year, which is
+/// longer than an alignment takes. The year or the month may be a wrong one.
+void add_gap_doubts(const AlignmentFile& file, TireMeasurements AlignmentTire::*side, const std::string& machine,
+                    std::vector<std::string>& doubts) {
+  std::vector<TimedMeasurement> measured;
+  for (const AlignmentTire& tire : file.tires) {
+    for (const AlignmentMeasurement& one : (tire.*side).all) measured.push_back({one.time_s, tire.name});
+  }
+  sort_timed(measured);
+  const std::vector<PartOfTime> parts = split_at_gaps(measured);
+  const auto main = std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+    return a.measured.size() < b.measured.size();
+  });
+  for (auto part = parts.begin(); part != parts.end(); ++part) {
+    const bool has_all = part->count_tires() == file.tires.size();
+    if (part == main || (has_all && part->gap_days <= kMostGap_days)) continue;
+    doubts.push_back(fmt::format(
+        "{}{}, the first of tire '{}' on {}, {} {:.0f} days from the others: {} right?",
+        format_count(part->measured.size(), "measurement"),
+        machine.empty() ? "" : fmt::format(" on machine '{}'", machine), part->measured.front().tire,
+        format_day(part->measured.front().time_s), part->measured.size() == 1 ? "lies" : "lie", part->gap_days,
+        part->measured.size() == 1 ? "is its date" : "are their dates"));
+  }
+}
+
+/// Two measurements of a tire on one day, of which one has no time of day: which was the first is not known.
+void add_day_doubts(const AlignmentFile& file, TireMeasurements AlignmentTire::*side, std::vector<std::string>& doubts) {
+  const auto has_time = [](const AlignmentMeasurement& one) {
+    return std::fmod(one.time_s, measurements::kDay_s) != 0.0;
+  };
+  for (const AlignmentTire& tire : file.tires) {
+    const std::vector<AlignmentMeasurement>& all = (tire.*side).all;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      const bool is_one_day = format_day(all[i].time_s) == format_day(all[i - 1].time_s);
+      if (!is_one_day || has_time(all[i - 1]) == has_time(all[i])) continue;
+      doubts.push_back(fmt::format(
+          "tire '{}' has two measurements on {}, one of them without a time of day, which is taken as the first: is "
+          "it?",
+          tire.name, format_day(all[i].time_s)));
+    }
+  }
 }
 
 /// Measurements that follow another one too soon.
@@ -134,8 +208,15 @@ std::optional<std::string> doubt_days_between(const AlignmentFile& file) {
 std::vector<std::string> list_time_doubts(const AlignmentFile& file) {
   std::vector<std::string> doubts;
   const LeastTestTimes least = find_least_test_times(file);
-  add_close_doubts(list_timed(file, &AlignmentTire::candidate, true), file.machine, least, doubts);
-  add_close_doubts(list_timed(file, &AlignmentTire::reference, false), file.reference_machine, least, doubts);
+  add_close_doubts(list_timed(file, &AlignmentTire::candidate, file.controls), file.machine, least, doubts);
+  add_close_doubts(list_timed(file, &AlignmentTire::reference, file.reference_controls), file.reference_machine, least,
+                   doubts);
+  add_gap_doubts(file, &AlignmentTire::candidate, file.machine, doubts);
+  if (!file.reference_machine.empty()) {
+    add_gap_doubts(file, &AlignmentTire::reference, file.reference_machine, doubts);
+  }
+  add_day_doubts(file, &AlignmentTire::candidate, doubts);
+  add_day_doubts(file, &AlignmentTire::reference, doubts);
   if (const auto doubt = doubt_days_between(file); doubt.has_value()) doubts.push_back(*doubt);
   return doubts;
 }
@@ -155,6 +236,7 @@ std::vector<std::string> list_date_doubts(const AlignmentFile& file, const std::
     look_at(tire.reference.all);
   }
   for (const ControlTire& control : file.controls) look_at(control.measurements);
+  for (const ControlTire& control : file.reference_controls) look_at(control.measurements);
   if (late == 0) return {};
   return {fmt::format("{} dated after today, {}, the last on {}: is the year right?",
                       late == 1 ? "1 measurement is" : fmt::format("{} measurements are", late), today,

@@ -10,6 +10,12 @@
 
 namespace rollrig::estimation {
 
+/// From when on a control tire has another mean.
+struct ControlShift {
+  double from_s = 0.0;
+  double by_N_per_kN = 0.0;
+};
+
 /// One control tire.
 struct ControlChart {
   std::string tire;
@@ -17,10 +23,11 @@ struct ControlChart {
   std::vector<double> rrc_N_per_kN;
   double center_N_per_kN = 0.0;  // mean of all
   double sd_N_per_kN = 0.0;      // of one measurement, from the differences of neighbors in time
-  double low_N_per_kN = 0.0;     // center - 3 sd
+  double low_N_per_kN = 0.0;     // center - 3 sd - half a step of the values
   double high_N_per_kN = 0.0;
   std::vector<std::size_t> outside;  // indices beyond these limits
-  std::size_t longest_run = 0;       // measurements in a row on one side of the center
+  std::size_t longest_run = 0;       // measurements in a row on one side of the center, by more than half a step
+  std::optional<ControlShift> shift;
   double largest_gap_days = 0.0;
 };
 
@@ -41,11 +48,15 @@ struct ControlMonitoring {
 inline constexpr std::size_t kLeastControlMeasurements = 5;  // Assumed: of a chart of its own
 inline constexpr std::size_t kMostOnOneSide = 8;             // Western Electric rule 4. Second-hand
 inline constexpr double kDriftLevel = 0.01;                  // Assumed: level of significance of a drift
+inline constexpr double kShiftLevel = 0.01;                  // Assumed: of a shift
 
 /// Charts of individual values, and the drift.
 ///
-/// Equation  sd = mean |x_i - x_(i-1)|/1.128; limits center +- 3 sd;
-///           x = level of the tire + slope t, least squares over all tires with one slope; t test of it
+/// Equation  sd = mean |x_i - x_(i-1)|/1.128; limits center +- (3 sd + step/2), since a value may be half
+///           a step nearer before its rounding;
+///           x = level of the tire + slope t, least squares over all tires with one slope; t test of it;
+///           sd, and that about the slope, not below the rounding of the values, step/sqrt(12) of all tires;
+///           shift: the place, with two measurements on each side at least, of the greatest t of both means; Bonferroni
 /// Validity  a common slope: a machine that drifts by a share moves tires of different RRC by different amounts, of
 ///           which this is the mean. A tire that ages drifts as well: several control tires tell it from the machine
 /// Source    ISO 7870-2, charts of individuals and moving ranges (1.128 = d2 of two values). Second-hand

@@ -8,10 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 
 #include "estimation/alignment/alignment_rules.h"
+#include "sim/core/limits.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -98,9 +100,9 @@ double find_rest_freedom(const LineFit& fit, double of_candidate, double candida
 }  // namespace
 
 std::size_t calc_measurements(const AlignmentRules& rules, double sigma_m_N_per_kN) {
-  if (sigma_m_N_per_kN <= rules.sigma_m_N_per_kN) return rules.measurements;
+  if (is_at_most(sigma_m_N_per_kN, rules.sigma_m_N_per_kN)) return rules.measurements;
   const double ratio = sigma_m_N_per_kN / rules.gamma_N_per_kN;
-  return std::max(rules.measurements, static_cast<std::size_t>(std::ceil(1.0 + ratio * ratio)));
+  return std::max(rules.measurements, static_cast<std::size_t>(round_up(1.0 + ratio * ratio)));
 }
 
 ScatterEstimate pool_repeats(const std::vector<std::vector<double>>& groups) {
@@ -121,9 +123,15 @@ ScatterEstimate pool_repeats(const std::vector<std::vector<double>>& groups) {
   return pooled;
 }
 
-double find_value_step(const std::vector<double>& values) { return find_step(values, {1.0}); }
+double find_greatest_step(const std::vector<double>& values) { return find_step(values, {1.0, 2.0, 4.0, 5.0}); }
 
-double find_greatest_step(const std::vector<double>& values) { return find_step(values, {1.0, 2.0, 5.0}); }
+double find_value_step(const std::vector<double>& values) {
+  constexpr double kLeastChance = 1e-3;
+  const double of_decimals = find_step(values, {1.0}), greatest = find_greatest_step(values);
+  if (!(of_decimals > 0.0)) return greatest;
+  const std::size_t different = std::set<double>(values.begin(), values.end()).size();
+  return std::pow(of_decimals / greatest, static_cast<double>(different)) < kLeastChance ? greatest : of_decimals;
+}
 
 double calc_rounding_sd(double step) { return step / std::sqrt(12.0); }
 

@@ -26,13 +26,14 @@ struct ScatterEstimate {
 /// Checked   tests/estimation/alignment_test.cpp
 ScatterEstimate pool_repeats(const std::vector<std::vector<double>>& groups);
 
-/// The step to which values are rounded: the greatest of 1, 0.1, ... 1e-6 of which all are multiples; 0 where there is
-/// none, and of no values.
-/// Validity  decimal places; a greater step of an instrument, such as 0.05, is not seen
+/// The greatest step among 1, 0.5, 0.25, 0.2, 0.1, 0.05, ... of which all values are multiples; 0 where there is none,
+/// and of no values. Of few values that are multiples of it by chance, it is too great.
+double find_greatest_step(const std::vector<double>& values);
+/// The step to which values are rounded: the greatest of which all are multiples, such as 0.05 of an instrument, or
+/// that of the decimals where values of so many decimals would be multiples by chance.
+/// Equation  (decimals/step)^n < 1e-3, of n different values. Assumed: 1e-3
 /// Checked   tests/estimation/alignment_test.cpp
 double find_value_step(const std::vector<double>& values);
-/// The same among 1, 0.5, 0.2, 0.1, 0.05, ...: of few values that are multiples of it by chance, it is too great.
-double find_greatest_step(const std::vector<double>& values);
 
 /// Standard uncertainty of a value that is rounded to a step: step/sqrt(12).
 /// Source    JCGM 100:2008 (GUM), F.2.2.1. Second-hand

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/core/limits.h"
+
 namespace rollrig::models {
 namespace {
 
@@ -20,14 +22,16 @@ double calc_normal_share(double z) { return boost::math::cdf(boost::math::normal
 std::string compare_with_least(TireClass tire_class, double rrc) {
   constexpr double kLeastShare = 0.6;
   const double least = kLeastShare * list_label_bounds(tire_class).front();
-  if (rrc >= least) return "";
+  if (is_at_least(rrc, least)) return "";
   return fmt::format("below {:g} N/kN, {:g} times the upper bound of label class A", least / kPerKilo, kLeastShare);
 }
 
 }  // namespace
 
 std::optional<RrcMistake> find_rrc_mistake(double rrc) {
-  const auto is_of_a_tire = [](double one) { return one >= kLowestTireRrc && one <= kHighestTireRrc; };
+  const auto is_of_a_tire = [](double one) {
+    return is_at_least(one, kLowestTireRrc) && is_at_most(one, kHighestTireRrc);
+  };
   if (is_of_a_tire(rrc)) return std::nullopt;
   std::string hint;
   for (const auto& [factor, unit] : {std::pair{1e3, "N/N"}, std::pair{10.0, "percent"}, std::pair{0.1, "0.1 N/kN"}}) {
@@ -87,7 +91,7 @@ std::vector<RrcLimit> list_rrc_limits(TireClass tire_class, bool is_severe_snow)
 std::optional<std::string> doubt_class_by_mean(TireClass tire_class, double mean_rrc) {
   const double most = list_rrc_limits(tire_class, false).front().rrc;
   std::string limit = compare_with_least(tire_class, mean_rrc);
-  if (mean_rrc > most) limit = fmt::format("above {:g} N/kN, the limit of UN R117, stage 1", most / kPerKilo);
+  if (!is_at_most(mean_rrc, most)) limit = fmt::format("above {:g} N/kN, the limit of UN R117, stage 1", most / kPerKilo);
   if (limit.empty()) return std::nullopt;
   return fmt::format("the tires of class {} have a mean RRC of {:.2f} N/kN, {}: is the class right?",
                      name_of(tire_class), mean_rrc / kPerKilo, limit);
@@ -97,7 +101,7 @@ std::optional<std::string> doubt_class_by_rrc(TireClass tire_class, double rrc, 
   constexpr double kMostShare = 1.5;
   const double most = list_rrc_limits(tire_class, is_severe_snow).front().rrc;
   std::string limit = compare_with_least(tire_class, rrc);
-  if (rrc > kMostShare * most) {
+  if (!is_at_most(rrc, kMostShare * most)) {
     limit = fmt::format("more than {:g} times the limit of UN R117, stage 1, {:g} N/kN", kMostShare, most / kPerKilo);
   }
   if (limit.empty()) return std::nullopt;

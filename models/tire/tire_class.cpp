@@ -161,6 +161,7 @@ IsoTestOfClass find_iso_test(const ServiceDescription& service, double rim_diame
   if (is_heavy) test.warm_up_s = (rim_diameter_m > kLargeRim_m ? 180.0 : 150.0) * kMinute_s;
   test.ambient_coefficient_per_K = kAmbientCoefficient_per_K;
   if (!is_car) test.ambient_coefficient_per_K = is_heavy ? 0.006 : 0.010;
+  test.highest_skim_load_N = service.tire_class == TireClass::kC3 ? 500.0 : 200.0;
   return test;
 }
 

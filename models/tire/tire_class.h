@@ -72,6 +72,7 @@ struct IsoTestOfClass {
   double soak_s = 0.0;                // C1 3 h, C2 and C3 6 h
   double warm_up_s = 0.0;             // C1 30 min; up to index 121 50 min; above 150 min, 180 min with rims of 22.5 in
   double ambient_coefficient_per_K = 0.0;  // K_t: C1 0.008; C2 and C3 up to index 121 0.010; above 0.006
+  double highest_skim_load_N = 0.0;        // C1 and C2 200 N, C3 500 N. UN R117, Annex 6; second-hand
 };
 IsoTestOfClass find_iso_test(const ServiceDescription& service, double rim_diameter_m);
 

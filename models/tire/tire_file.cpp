@@ -9,6 +9,7 @@
 #include "models/tire/label_class.h"
 #include "models/tire/tire_model.h"
 #include "sim/core/error.h"
+#include "sim/core/limits.h"
 
 namespace rollrig::models {
 namespace {
@@ -325,18 +326,18 @@ std::vector<std::string> TireFile::list_class_doubts() const {
   if (const auto doubt = doubt_class_by_rrc(service->tire_class, iso_28580->rrc, service->is_severe_snow)) {
     doubts.push_back("[iso_28580] rrc_N_per_kN: " + *doubt);
   }
-  constexpr double kSame = 0.01;  // Assumed: files round
+  constexpr double kSame = 0.01;  // Assumed: files round load, pressure and speed
   const IsoTestOfClass of_class = find_iso_test(*service, values.geometry.rim_diameter_m);
-  const auto compare = [&](const char* key, double stated_SI, double asked_SI) {
-    if (std::abs(stated_SI / asked_SI - 1.0) <= kSame) return;
+  const auto compare = [&](const char* key, double stated_SI, double asked_SI, double tolerance = kLimitTolerance) {
+    if (std::abs(stated_SI / asked_SI - 1.0) <= tolerance) return;
     const Unit unit = unit_of_key(key);
     doubts.push_back(fmt::format("[iso_28580] {} = {:.6g}, but the test of class {} asks for {:.6g} with load index {}",
                                  key, unit.from_si(stated_SI), name, unit.from_si(asked_SI), service->load_index));
   };
   const bool is_index_known = service->load_index != 0;  // rollrig label may have none
-  if (is_index_known) compare("load_N", iso_28580->load_N, of_class.load_N);
-  if (of_class.pressure_Pa.has_value()) compare("pressure_kPa", iso_28580->pressure_Pa, *of_class.pressure_Pa);
-  compare("speed_km_h", iso_28580->speed_m_s, of_class.speed_m_s);
+  if (is_index_known) compare("load_N", iso_28580->load_N, of_class.load_N, kSame);
+  if (of_class.pressure_Pa.has_value()) compare("pressure_kPa", iso_28580->pressure_Pa, *of_class.pressure_Pa, kSame);
+  compare("speed_km_h", iso_28580->speed_m_s, of_class.speed_m_s, kSame);
   compare("warm_up_min", iso_28580->warm_up_s, of_class.warm_up_s);
   compare("ambient_coefficient_per_degC", iso_28580->ambient_coefficient_per_K, of_class.ambient_coefficient_per_K);
   return doubts;

@@ -86,9 +86,14 @@ double correct_rrc(double rrc, double ambient_K, const RunSpec& spec) {
   const double tire_radius_m = spec.tire.values.geometry.outer_diameter_m / 2.0;
   const double to_2m =
       models::calc_drum_correction(spec.rig.curvature_per_m(), 1.0 / kReferenceRadius_m, tire_radius_m);
-  const auto& iso = spec.tire.iso_28580;
-  const double coefficient_per_K = iso.has_value() ? iso->ambient_coefficient_per_K : models::kAmbientCoefficient_per_K;
-  return rrc * to_2m * models::calc_ambient_correction(ambient_K, coefficient_per_K);
+  return rrc * to_2m * models::calc_ambient_correction(ambient_K, find_ambient_coefficient_per_K(spec));
+}
+
+double find_ambient_coefficient_per_K(const RunSpec& spec) {
+  const models::TireFile& tire = spec.tire;
+  if (tire.iso_28580.has_value()) return tire.iso_28580->ambient_coefficient_per_K;
+  if (!tire.service.has_value()) return models::kAmbientCoefficient_per_K;
+  return models::find_iso_test(*tire.service, tire.values.geometry.rim_diameter_m).ambient_coefficient_per_K;
 }
 
 models::SensorParameters find_force_sensor(const RunSpec& spec) {

@@ -91,11 +91,14 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
 
 /// RRc corrected to 25 degC and to the 2 m drum.
 /// Equation  RRc K_r (1 + K_t (T_amb - 25 degC))
-/// Symbols   K_t of [iso_28580] of the tire, else 0.008 1/degC of class C1; K_r of (3.1) to R_2 = 1 m; T_amb temperature
+/// Symbols   K_t of find_ambient_coefficient_per_K(); K_r of (3.1) to R_2 = 1 m; T_amb temperature
 ///           of the air [degC]
 /// Validity  20 to 30 degC; a warning outside
 /// Source    ISO 28580 as in §3.2.3.3; K_t from the standard
 double correct_rrc(double rrc, double ambient_K, const RunSpec& spec);
+
+/// K_t of [iso_28580] of the tire, else of its class, else 0.008 1/degC of class C1.
+double find_ambient_coefficient_per_K(const RunSpec& spec);
 
 /// Expanded uncertainty (k = 2) of a cycle's RRc, corrected as correct_rrc does, from the torque sensor.
 struct RrcUncertainty {

@@ -48,6 +48,13 @@ void require_separated(const std::vector<std::string>& header, const std::string
   }
 }
 
+/// Throws InputError for a file that would be one line.
+void require_line_feeds(const std::string& text, const std::string& path) {
+  if (text.find('\r') == std::string::npos || text.find('\n') != std::string::npos) return;
+  throw InputError({"the lines of this file end with a carriage return (CR) alone", path, 1, "", "",
+                    "lines that end with LF, or with CR and LF: save the file again as CSV with such lines", ""});
+}
+
 }  // namespace
 
 void CsvTable::read_header(const std::vector<std::string>& names) {
@@ -100,6 +107,7 @@ std::string_view CsvTable::cell(std::size_t row, std::size_t column) const {
 
 CsvTable CsvTable::read(const std::string& path, const CsvForm& form, RowProblems* problems) {
   const std::string text = read_text_file(path, form.encoding, form.encoding_hint);
+  require_line_feeds(text, path);
   CsvTable table;
   table.path_ = path;
   table.form_ = form;

@@ -96,6 +96,22 @@ TEST_CASE("the rolling resistance that the terms of a label cannot be found for 
   CHECK(find_refused_label(of_tire) == "--class");
 }
 
+TEST_CASE("a load index or speed symbol that is not the one of the tire's file is refused", "[fast]") {
+  LabelInput input;
+  input.tire = "c1_205_55r16";
+  input.rrc_N_per_kN = 8.4;
+  input.load_index = "92";
+  CHECK(find_refused_label(input) == "--load-index");
+  input.load_index = "91";
+  input.speed_symbol = "v";
+  CHECK(find_refused_label(input).empty());
+  input.speed_symbol = "H";
+  CHECK(find_refused_label(input) == "--speed-symbol");
+  input.tire = "a50";  // without [service_description]
+  input.tire_class = "C1";
+  CHECK(find_refused_label(input).empty());
+}
+
 TEST_CASE("an RRc far above the limit of its class asks whether the class is right", "[fast]") {
   CHECK(make_label(make_label_input(11.9, "C3")).warnings.empty());
   const TireLabel label = make_label(make_label_input(20.0, "C3"));
@@ -114,6 +130,8 @@ TEST_CASE("an RRc far above the limit of its class asks whether the class is rig
 TEST_CASE("an RRc far below class A asks whether the class is right", "[fast]") {
   for (const double low : {2.0, 3.8}) CHECK(make_label(make_label_input(low, "C1")).warnings.size() == 1);
   CHECK(make_label(make_label_input(4.0, "C1")).warnings.empty());
+  CHECK(make_label(make_label_input(3.9, "C1")).warnings.empty());   // 0.6 times 6.5, which is reached
+  CHECK(make_label(make_label_input(18.0, "C1")).warnings.empty());  // 1.5 times 12
   CHECK(make_label(make_label_input(2.5, "C3")).warnings.empty());
   rollrig::VectoTireInput input = make_vecto_input("c3_315_80r22_5");
   input.rrc_N_per_kN = 2.0;

@@ -393,3 +393,51 @@ TEST_CASE("an aligned value has one expanded uncertainty in text, JSON and budge
   const double half = value["coverage_factor"].get<double>() * value["sd_N_per_kN"].get<double>();
   CHECK(value["uncertainty"]["budgets"][0]["expanded_uncertainty"].get<double>() == Approx(half).epsilon(2e-3));
 }
+
+TEST_CASE("rows of a machine that is written in another way are named by their lines", "[fast]") {
+  const TemporaryFolder folder;
+  std::string text = read_file(ROLLRIG_SOURCE_DIR "/assets/examples/alignment.csv");
+  const std::string fit = " --machine drum_B --reference-machine drum_A --reference 1 0";
+  CHECK_THAT(flatten(run_program("align " + kAlignmentExample + fit).out), !Contains("not used, "));
+  for (std::size_t at = text.find("K1,C1"); at != std::string::npos; at = text.find("K1,C1", at + 1)) {
+    text.replace(text.find("drum_B", at), 6, "drum-B");
+  }
+  write_file(folder.file("tires.csv"), text);
+  const auto run = run_program("align tires.csv" + fit, folder.path());
+  INFO(run.out << run.err);
+  CHECK_THAT(flatten(run.out), Contains("rows of machine 'drum-B' are not used, ") && Contains("of a control tire: line") &&
+                                   Contains("Is the machine 'drum_B'?"));
+}
+
+TEST_CASE("a file whose lines end with CR alone says so", "[fast]") {
+  const TemporaryFolder folder;
+  std::string text = read_file(ROLLRIG_SOURCE_DIR "/assets/examples/alignment.csv");
+  for (char& c : text) c = c == '\n' ? '\r' : c;
+  write_file(folder.file("tires.csv"), text);
+  const auto run = run_program("align tires.csv --reference-machine drum_A", folder.path());
+  CHECK(run.status == 2);
+  CHECK_THAT(flatten(run.err), Contains("the lines of this file end with a carriage return (CR) alone"));
+}
+
+TEST_CASE("an option without a text, or without what it belongs to, is refused", "[fast]") {
+  for (const char* command :
+       {"align tires.csv --on ''", "label --rrc 8.4 --class ''", "label --rrc 8.4 --class C1 --load-index ''"}) {
+    const auto run = run_program(command);
+    INFO(command << run.err);
+    CHECK(run.status == 2);
+    CHECK_THAT(run.err, Contains("is empty"));
+  }
+  CHECK(run_program("export c3_315_80r22_5 --vecto - --tires 4").status == 2);
+  CHECK(run_program("export c3_315_80r22_5 --vecto - --tire-radius 0.5").status == 2);
+}
+
+TEST_CASE("the certificate has the last measurement of each machine and the day from which it holds", "[fast]") {
+  const TemporaryFolder folder;
+  const auto run =
+      run_program("align " + kAlignmentExample + " --reference-machine drum_A --report a.html --json a.json", folder.path());
+  const std::string page = read_file(folder.file("a.html"));
+  const json alignment = json::parse(read_file(folder.file("a.json")));
+  for (const char* key : {"last_measurement", "last_measurement_of_reference", "valid_from"}) {
+    CHECK_THAT(page, Contains("data-json=\"/" + std::string(key) + "\">" + alignment[key].get<std::string>()));
+  }
+}

@@ -79,6 +79,13 @@ TEST_CASE("what is no pair of machines with one tire is refused", "[fast]") {
   for (auto& [channel, values] : run.columns) values.erase(values.begin() + 1000);
   for (std::size_t i = 0; i < 100; ++i) run.columns.at("drum_torque_Nm")[i] += 1.0;
   check_refused(a, other, "same recording");
+  // So is one whose torque is rounded, or whose times begin later: the other columns are equal to the digit.
+  other = a;
+  other.path = "copy/set.toml";
+  for (double& torque_Nm : other.runs.front().columns.at("drum_torque_Nm")) torque_Nm = std::round(torque_Nm);
+  check_refused(a, other, "same recording");
+  for (double& time_s : other.runs.front().time_s) time_s += 0.5;
+  check_refused(a, other, "same recording");
   other = b;
   other.kind = &rigs::find_machine_kind("flat_belt");
   check_refused(a, other, "different kinds: 'drum' and 'flat_belt'");

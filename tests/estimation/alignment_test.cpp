@@ -405,7 +405,7 @@ TEST_CASE("equal values of each tire are doubted on either machine, and coarse o
   CHECK(align_value(result.line, 8.5, 3).sd > 0.1 / std::sqrt(12.0) / std::sqrt(3.0));
 }
 
-TEST_CASE("the step of values is that of their decimals", "[fast]") {
+TEST_CASE("the step of values is that of their decimals, or a greater one that enough of them show", "[fast]") {
   CHECK(find_value_step({6.5, 7.0, 8.5}) == Approx(0.1));
   CHECK(find_value_step({6.97, 7.83, 10.0}) == Approx(0.01));
   CHECK(find_value_step({7.0, 8.0}) == Approx(1.0));
@@ -413,6 +413,136 @@ TEST_CASE("the step of values is that of their decimals", "[fast]") {
   CHECK(find_value_step({}) == 0.0);
   CHECK(find_value_step({6.95, 7.80, 10.15}) == Approx(0.01));
   CHECK(find_greatest_step({6.95, 7.80, 10.15}) == Approx(0.05));
+  CHECK(find_value_step({6.95, 7.80, 10.15, 8.05, 9.30, 6.95}) == Approx(0.05));
+  CHECK(find_value_step({6.5, 7.0, 8.5, 9.5, 10.0}) == Approx(0.5));
+  CHECK(find_value_step({6.52, 7.04, 8.58, 9.56, 10.02}) == Approx(0.01));  // five even ones in 32 are chance
+}
+
+TEST_CASE("values in steps of 0.05 have the rounding of these steps", "[fast]") {
+  RandomStream random(40, "step");
+  const AlignmentResult result = align_file(make_pair_file(random, 0.05, 0.005));
+  CHECK(result.sigma_m.sd >= Approx(0.05 / std::sqrt(12.0)));
+  CHECK(result.fit.candidate_sd >= Approx(0.05 / std::sqrt(12.0)));
+}
+
+TEST_CASE("a limit is met by a value that reaches it, whatever its binary form", "[fast]") {
+  CHECK(calc_measurements(kRulesC1C2, 0.043 * std::sqrt(3.0)) == 4);
+  CHECK(calc_measurements(kRulesC1C2, 0.086 * (1.0 + 1e-12)) == 5);
+  CHECK(calc_measurements(kRulesC1C2, 0.0861) == 6);
+  CHECK(calc_measurements(kRulesC1C2, 0.075 * (1.0 + 1e-12)) == 4);
+  const auto align_range = [](double low, double high) {
+    RandomStream random(41, "range");
+    AlignmentFile file = make_pair_file(random);
+    for (std::size_t i = 0; i < file.tires.size(); ++i) {
+      const double rrc = low + (high - low) * static_cast<double>(i) / 4.0;
+      for (TireMeasurements* side : {&file.tires[i].candidate, &file.tires[i].reference}) {
+        const double scatter[] = {0.05, 0.03, -0.03, 0.0};
+        for (std::size_t k = 0; k < 4; ++k) side->all[k].rrc_N_per_kN = rrc + scatter[k];
+      }
+      file.tires[i].reference_N_per_kN = file.tires[i].reference.mean();
+    }
+    const std::vector<AlignmentCheck> checks = align_file(file).checks;
+    const auto check = std::find_if(checks.begin(), checks.end(), [](const AlignmentCheck& one) {
+      return one.name == "range of RRC, before and after";
+    });
+    REQUIRE(check != checks.end());
+    return check->is_met;
+  };
+  for (int tenths = 55; tenths < 91; ++tenths) {
+    INFO(tenths);
+    CHECK(align_range(tenths / 10.0, (tenths + 30) / 10.0));
+  }
+  CHECK_FALSE(align_range(6.0, 8.999));
+}
+
+TEST_CASE("reference values that are rounded as coarsely as a machine may scatter make no alignment", "[fast]") {
+  const auto align_rounded = [](double step_N_per_kN) {
+    RandomStream random(42, "coarse reference");
+    AlignmentFile file = make_measured_file(random);
+    file.machine = "drum_B";
+    for (AlignmentTire& tire : file.tires) {
+      const double rrc = 0.97 * tire.candidate.mean() + 0.13;
+      tire.reference_N_per_kN = step_N_per_kN * std::round(rrc / step_N_per_kN);
+    }
+    return align_file(file);
+  };
+  const auto is_met = [](const AlignmentResult& result) {
+    const auto check = std::find_if(result.checks.begin(), result.checks.end(), [](const AlignmentCheck& one) {
+      return one.name == "rounding of the reference values";
+    });
+    REQUIRE(check != result.checks.end());
+    CHECK(check->is_rule);
+    return check->is_met;
+  };
+  CHECK_FALSE(is_met(align_rounded(1.0)));
+  CHECK_FALSE(align_rounded(1.0).is_valid);
+  CHECK(is_met(align_rounded(0.1)));
+  CHECK(is_in(align_rounded(0.1).warnings, "the reference values have steps of 0.1 N/kN"));
+  CHECK(is_met(align_rounded(0.01)));
+  CHECK_FALSE(is_in(align_rounded(0.01).warnings, "have steps of"));
+}
+
+TEST_CASE("a measurement that is dated far from the others of its machine is doubted", "[fast]") {
+  RandomStream random(43, "dates");
+  const AlignmentFile innocent = make_pair_file(random);
+  CHECK(list_time_doubts(innocent).empty());
+  for (const double days : {-366.0, -365.0, 365.0, 90.0}) {
+    AlignmentFile file = innocent;
+    std::vector<AlignmentMeasurement>& all = file.tires[3].candidate.all;
+    all[3].time_s += 86400.0 * days;
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+    INFO(days);
+    CHECK(is_in(list_time_doubts(file), "1 measurement on machine 'drum_B', the first of tire 'T4' on"));
+    CHECK(is_in(list_time_doubts(file), "days from the others: is its date right?"));
+  }
+  // A round of all tires each quarter is none, a year between two rounds is.
+  for (const double round_days : {91.0, 365.0}) {
+    AlignmentFile file = innocent;
+    for (AlignmentTire& tire : file.tires) {
+      for (std::size_t k = 0; k < 4; ++k) tire.candidate.all[k].time_s += 86400.0 * round_days * static_cast<double>(k);
+    }
+    CHECK(is_in(list_time_doubts(file), "are their dates right?") == (round_days > 180.0));
+  }
+}
+
+TEST_CASE("of two measurements on one day, one without a time of day is doubted", "[fast]") {
+  RandomStream random(44, "day");
+  AlignmentFile file = make_pair_file(random);
+  std::vector<AlignmentMeasurement>& all = file.tires[0].candidate.all;
+  all[1].time_s = all[0].time_s + 36000.0;
+  CHECK(is_in(list_time_doubts(file), "tire 'T1' has two measurements on 2024-10-04, one of them without a time"));
+  all[0].time_s += 18000.0;
+  CHECK_FALSE(is_in(list_time_doubts(file), "without a time"));
+}
+
+TEST_CASE("coarse values of many tires and repeats stand on both machines, and nobody copied them", "[fast]") {
+  struct Case {
+    double sigma_m;
+    std::size_t rounds;
+  };
+  for (const Case& each : {Case{0.02, 1}, {0.035, 1}, {0.035, 2}, {0.05, 2}}) {
+    RandomStream random(45, "many repeats");
+    int accused = 0;
+    constexpr int kTimes = 400;
+    for (int i = 0; i < kTimes; ++i) {
+      AlignmentFile file = make_pair_file(random, 0.1, each.sigma_m);
+      for (std::size_t more = 1; more < each.rounds; ++more) {
+        const AlignmentFile later = make_pair_file(random, 0.1, each.sigma_m);
+        for (std::size_t k = 0; k < file.tires.size(); ++k) {
+          for (const auto& [to, from] : {std::pair(&file.tires[k].candidate, &later.tires[k].candidate),
+                                         std::pair(&file.tires[k].reference, &later.tires[k].reference)}) {
+            for (AlignmentMeasurement one : from->all) {
+              one.time_s += 86400.0 * 28.0;
+              to->all.push_back(one);
+            }
+          }
+        }
+      }
+      accused += is_in(list_value_doubts(file), "copied?") ? 1 : 0;
+    }
+    INFO(each.sigma_m << ", " << each.rounds << ": " << accused);
+    CHECK(accused <= kTimes / 100);
+  }
 }
 
 TEST_CASE("a tire that has the values of another one is doubted", "[fast]") {
@@ -486,4 +616,30 @@ TEST_CASE("a reference machine of large scatter is doubted where its interval is
     tire.reference_N_per_kN = tire.reference.mean();
   }
   CHECK(is_in(align_file(file).warnings, "sigma_m of the reference machine: 0."));
+}
+
+TEST_CASE("reference values that are all equal have a message of their own", "[fast]") {
+  RandomStream random(46, "equal reference");
+  AlignmentFile file = make_measured_file(random);
+  for (AlignmentTire& tire : file.tires) tire.reference_N_per_kN = 8.0;
+  CHECK_THROWS_WITH(align_file(file), Catch::Contains("all tires have one reference value"));
+}
+
+TEST_CASE("a drift of the reference machine's control tires is a warning, not the end of the alignment", "[fast]") {
+  RandomStream random(47, "reference controls");
+  AlignmentFile file = make_pair_file(random);
+  const auto make_control = [&](double by_month) {
+    ControlTire control{"K1", {}};
+    for (int month = 0; month < 12; ++month) {
+      const double rrc = 8.0 + by_month * month + 0.02 * random.normal();
+      control.measurements.push_back({86400.0 * (19700.0 + 28.0 * month), rrc, true});
+    }
+    return control;
+  };
+  file.reference_controls = {make_control(0.0)};
+  const bool is_valid = align_file(file).is_valid;
+  CHECK_FALSE(is_in(align_file(file).warnings, "on the reference machine"));
+  file.reference_controls = {make_control(0.05)};
+  CHECK(is_in(align_file(file).warnings, "the control tires on the reference machine 'drum_A' drift by +0.6"));
+  CHECK(align_file(file).is_valid == is_valid);
 }

@@ -92,3 +92,48 @@ TEST_CASE("too few control measurements say nothing of a drift", "[fast]") {
   CHECK_FALSE(watch_control_tires(make_controls(random, 0.1, 2)).drift.has_value());
   CHECK_FALSE(is_out_of_control(watch_control_tires(make_controls(random, 0.1, 1)).charts[0]));
 }
+
+TEST_CASE("coarse control values that do not drift are as seldom doubted as fine ones", "[fast]") {
+  constexpr int kTimes = 400;
+  for (const int months : {6, 10, 16}) {
+    double drifts[2] = {0.0, 0.0}, alarms[2] = {0.0, 0.0};
+    for (const std::size_t is_coarse : {0u, 1u}) {
+      RandomStream random(6, "coarse");
+      for (int i = 0; i < kTimes; ++i) {
+        std::vector<ControlTire> tires = make_controls(random, 0.0, months, 0.045);
+        for (ControlTire& tire : tires) {
+          for (AlignmentMeasurement& one : tire.measurements) {
+            if (is_coarse == 1) one.rrc_N_per_kN = std::round(10.0 * one.rrc_N_per_kN) / 10.0;
+          }
+        }
+        const ControlMonitoring seen = watch_control_tires(tires);
+        drifts[is_coarse] += has_drift(seen) ? 1.0 / kTimes : 0.0;
+        alarms[is_coarse] += is_out_of_control(seen.charts[0]) ? 1.0 / kTimes : 0.0;
+      }
+    }
+    INFO(months << ": drifts " << drifts[0] << " " << drifts[1] << ", alarms " << alarms[0] << " " << alarms[1]);
+    CHECK(drifts[1] < 0.025);  // level 0.01, three standard deviations of 400 draws
+    CHECK(alarms[1] < alarms[0] + 0.04);
+  }
+}
+
+TEST_CASE("values that tie with their mean within half a step are on no side of it", "[fast]") {
+  std::vector<ControlTire> tires{{"K1", {}}};
+  for (int month = 0; month < 12; ++month) {
+    tires[0].measurements.push_back({28.0 * kDay * month, month == 11 ? 8.4 : month == 10 ? 8.5 : 8.3, true});
+  }
+  const ControlMonitoring seen = watch_control_tires(tires);
+  CHECK(seen.charts[0].longest_run < kMostOnOneSide);
+  CHECK(seen.charts[0].sd_N_per_kN >= Approx(0.1 / std::sqrt(12.0)));
+}
+
+TEST_CASE("a step of the mean is named by the day from which on it is there", "[fast]") {
+  RandomStream random(7, "shift");
+  std::vector<ControlTire> tires = make_controls(random, 0.0, 14, 0.03);
+  CHECK_FALSE(watch_control_tires(tires).charts[1].shift.has_value());
+  for (std::size_t i = 8; i < 14; ++i) tires[1].measurements[i].rrc_N_per_kN += 0.3;
+  const ControlChart chart = watch_control_tires(tires).charts[1];
+  REQUIRE(chart.shift.has_value());
+  CHECK(chart.shift->from_s == Approx(8.0 * 28.0 * kDay));
+  CHECK(chart.shift->by_N_per_kN == Approx(0.3).margin(0.06));
+}

@@ -2,7 +2,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "scenarios/common/iso_methods.h"
+#include "scenarios/common/readings.h"
 #include "sim/core/columns.h"
 #include "tests/support/drum_fixture.h"
 
@@ -218,6 +221,47 @@ TEST_CASE("a test off the standard has no label class, and says by what", "[fast
   CHECK_THAT(why({"ambient_degC=35"}), Contains("ambient temperature"));
   CHECK_THAT(why({"soak_h=0.5"}), Contains("soak"));
   CHECK(run("iso_28580", "c1_205_55r16", {"rig.drum.diameter_m=1.7"}).result.count("label_class") == 1);
+  CHECK_THAT(why({"rig.drum.diameter_m=1.699"}), Contains("drum's diameter"));
+  CHECK_THAT(why({"soak_h=2.99"}), Contains("soak"));
+  CHECK_THAT(why({"warm_up_min=29.9"}), Contains("warm-up"));
+  CHECK_THAT(why({"tire.iso_28580.ambient_coefficient_per_degC=0.0081"}), Contains("(K_t)"));
+}
+
+TEST_CASE("a skim load above that of the standard has no label class and a warning, for each tire class", "[fast]") {
+  const std::vector<std::pair<double, double>> most_N{{200.0, 201.0}, {200.0, 201.0}, {500.0, 501.0}};
+  for (std::size_t i = 0; i < kOfEachClass.size(); ++i) {
+    INFO(kOfEachClass[i]);
+    const auto test = [&](double skim_load_N) {
+      return run("iso_28580", kOfEachClass[i], {fmt::format("rig.skim.load_N={}", skim_load_N)});
+    };
+    const auto allowed = test(most_N[i].first), above = test(most_N[i].second);
+    CHECK(allowed.result.count("label_class") == 1);
+    CHECK(allowed.warnings.empty());
+    CHECK(above.result.count("label_class") == 0);
+    CHECK_THAT(above.result["why_no_label"].get<std::string>(), Contains("the skim load is not that of the standard"));
+    REQUIRE(above.warnings.size() == 1);
+    CHECK_THAT(above.warnings.front(), Contains("is above the"));
+  }
+}
+
+TEST_CASE("methods that differ by more than 3 % are doubted, and an RRc that the class hardly has", "[fast]") {
+  const auto warn = [](const std::vector<std::string>& settings) {
+    std::string all;
+    for (const std::string& warning : run("iso_28580", "c1_205_55r16", settings).warnings) all += warning + "\n";
+    return all;
+  };
+  CHECK(warn({"effects.torque_gain.gain_percent=2.5"}).empty());
+  CHECK_THAT(warn({"effects.torque_gain.gain_percent=4"}), Contains("the methods differ by more than 3 %: F_r is"));
+  CHECK_THAT(warn({"spindle_misalignment_mrad=2"}), Contains("by torque and") && Contains("by force"));
+  CHECK_THAT(warn({"method=deceleration", "effects.inertia_error.error_percent=5"}), Contains("by deceleration"));
+  CHECK_THAT(warn({"effects.torque_gain.gain_percent=-70"}), Contains("is the class C1 right?"));
+  // The scatter of the usual sensors is no error of the machine.
+  scenarios::RunSpec spec = tests::make_spec("iso_28580", "c1_205_55r16", {}, "quasi_static");
+  spec.sensors = models::SensorSet{{models::quantities::kDrumTorque, scenarios::find_force_sensor(spec)}};
+  for (int seed = 1; seed <= 60; ++seed) {
+    spec.seed = static_cast<std::uint64_t>(seed);
+    CHECK(scenarios::run_scenario(spec, {}).warnings.empty());
+  }
 }
 
 TEST_CASE("the maximum load of J2452 is that of the load index, and C1's load over 0.8 where there is none", "[fast]") {
