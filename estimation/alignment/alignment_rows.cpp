@@ -148,6 +148,7 @@ std::vector<AlignmentRow> read_alignment_rows(const CsvTable& table) {
     }
     check_class(table, row);
     row.measurement.time_s = read_time_s(table, i, trimmed(dates[i]));
+    row.measurement.is_day_alone = !has_clock(dates[i]);
     row.measurement.rrc_N_per_kN = read_rrc(table, i, value_column, trimmed(values[i]));
     if (!references[i].empty()) row.reference_N_per_kN = read_rrc(table, i, reference_column, references[i]);
     rows.push_back(row);

@@ -13,7 +13,8 @@ namespace rollrig::estimation {
 struct AlignmentMeasurement {
   double time_s = 0.0;  // since 1970-01-01, on the laboratory's clock
   double rrc_N_per_kN = 0.0;
-  bool is_used = true;  // the first one of a tire on a machine is not
+  bool is_used = true;        // the first one of a tire on a machine is not
+  bool is_day_alone = false;  // the file says no time of day
 };
 
 struct AlignmentRow {

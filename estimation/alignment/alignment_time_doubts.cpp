@@ -120,14 +120,11 @@ void add_gap_doubts(const AlignmentFile& file, TireMeasurements AlignmentTire::*
 
 /// Two measurements of a tire on one day, of which one has no time of day: which was the first is not known.
 void add_day_doubts(const AlignmentFile& file, TireMeasurements AlignmentTire::*side, std::vector<std::string>& doubts) {
-  const auto has_time = [](const AlignmentMeasurement& one) {
-    return std::fmod(one.time_s, measurements::kDay_s) != 0.0;
-  };
   for (const AlignmentTire& tire : file.tires) {
     const std::vector<AlignmentMeasurement>& all = (tire.*side).all;
     for (std::size_t i = 1; i < all.size(); ++i) {
       const bool is_one_day = format_day(all[i].time_s) == format_day(all[i - 1].time_s);
-      if (!is_one_day || has_time(all[i - 1]) == has_time(all[i])) continue;
+      if (!is_one_day || all[i - 1].is_day_alone == all[i].is_day_alone) continue;
       doubts.push_back(fmt::format(
           "tire '{}' has two measurements on {}, one of them without a time of day, which is taken as the first: is "
           "it?",

@@ -510,8 +510,10 @@ TEST_CASE("of two measurements on one day, one without a time of day is doubted"
   AlignmentFile file = make_pair_file(random);
   std::vector<AlignmentMeasurement>& all = file.tires[0].candidate.all;
   all[1].time_s = all[0].time_s + 36000.0;
+  CHECK_FALSE(is_in(list_time_doubts(file), "without a time"));  // at 0:00
+  all[0].is_day_alone = true;
   CHECK(is_in(list_time_doubts(file), "tire 'T1' has two measurements on 2024-10-04, one of them without a time"));
-  all[0].time_s += 18000.0;
+  all[1].is_day_alone = true;
   CHECK_FALSE(is_in(list_time_doubts(file), "without a time"));
 }
 
