@@ -128,10 +128,7 @@ RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedure
   RoadLoadProcedure procedure = evaluate_checked(file, options, list_dropped(runs, file.data));
   procedure.is_simulated = file.is_simulated;
   procedure.warnings.insert(procedure.warnings.begin(), doubts.begin(), doubts.end());
-  if (file.rows_off > 0) procedure.warnings.push_back(format_count(file.rows_off, "row") + " left out: use = Off");
-  if (!file.left_out.problems.empty()) {
-    procedure.warnings.push_back(measurements::describe_left_out(file.left_out, "", file.path, "field"));
-  }
+  for (std::string& warning : estimation::list_reading_warnings(file)) procedure.warnings.push_back(std::move(warning));
   return procedure;
 }
 

@@ -114,10 +114,7 @@ RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
   select_sessions(sessions, *file);
   leave_out_runs(options.leave_out, *file);
   const auto fit = std::make_shared<RoadLoadFit>(fit_file(path, *file, options));
-  if (file->rows_off > 0) fit->warnings.push_back(format_count(file->rows_off, "row") + " left out: use = Off");
-  if (!file->left_out.problems.empty()) {
-    fit->warnings.push_back(measurements::describe_left_out(file->left_out, "", file->path, "field"));
-  }
+  for (std::string& warning : estimation::list_reading_warnings(*file)) fit->warnings.push_back(std::move(warning));
   const RoadLoadChecks checks = estimation::check_road_load(file->data, *fit);
   RoadLoad result;
   result.coefficients = estimation::list_coefficients(*fit);

@@ -1,6 +1,7 @@
 #include "estimation/road_load/coastdown_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <optional>
 
@@ -13,6 +14,7 @@
 #include "estimation/road_load/coastdown_rows.h"
 #include "estimation/road_load/coastdown_units.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -234,17 +236,59 @@ void drop_incomplete_totals(const CheckedRows& rows, const std::vector<bool>& us
   }
 }
 
+/// Letters and digits of a name, in lower case.
+std::string strip_name(const std::string& name) {
+  std::string stripped;
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) stripped += c;
+  }
+  return boost::algorithm::to_lower_copy(stripped);
+}
+
+/// The column that another name means: the same but for blanks, case and underscores, or a condition in another unit.
+/// Empty where there is none.
+std::string find_meant_column(const std::string& name, const std::vector<std::string>& known) {
+  const std::string stripped = strip_name(name);
+  for (const std::string& column : known) {
+    if (strip_name(column) == stripped) return column;
+  }
+  std::string meant;
+  std::size_t longest = 0;
+  for (const std::string& column : list_condition_columns()) {
+    const std::string stem = strip_name(name_without_unit(column));
+    if (stem.size() <= longest || stripped.rfind(stem, 0) != 0) continue;
+    longest = stem.size();
+    meant = column;
+  }
+  return meant;
+}
+
+/// Lists columns that the form does not have. Throws InputError for one whose name is nearly one that it has.
+std::vector<std::string> list_ignored_columns(const CsvTable& table) {
+  const std::vector<std::string> known = add_condition_columns(kBinColumns);
+  std::vector<std::string> ignored;
+  for (const std::string& column : table.columns()) {
+    if (std::find(known.begin(), known.end(), column) != known.end()) continue;
+    const std::string meant = find_meant_column(column, known);
+    if (!meant.empty() && !table.has(meant)) {
+      throw InputError({fmt::format("the column '{}' is not read", column), table.path(), 1, column, "",
+                        fmt::format("'{}', spelled so and in its unit; a column of another content needs another name",
+                                    meant),
+                        meant});
+    }
+    ignored.push_back(column);
+  }
+  return ignored;
+}
+
 void read_bins(CheckedRows& rows, BadRows bad_rows, CoastdownFile& file) {
+  file.ignored_columns = list_ignored_columns(rows.table());
   const BinSpeeds speeds = read_bin_speeds(rows);
   const std::vector<double> durations = rows.numbers({"dt_s", positive(), ""});
   const std::vector<bool> uses = read_uses(rows);
   const std::vector<std::optional<double>> starts_s = read_starts(rows);
   const CoastdownConditions conditions = read_conditions(rows);
   const RunTotals totals(rows);
-  const std::vector<std::string> known = add_condition_columns(kBinColumns);
-  for (const std::string& column : rows.table().columns()) {
-    if (std::find(known.begin(), known.end(), column) == known.end()) file.ignored_columns.push_back(column);
-  }
   std::vector<RowsOfRun> runs = sort_into_runs(rows, find_begins(rows, speeds), uses);
   check_bins(rows, speeds, runs);
   file.left_out = rows.settle(bad_rows);
@@ -290,6 +334,22 @@ CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows) {
   CoastdownFile file = read_coastdown_rows(path, bad_rows);
   require_coasting_decelerations(file);
   return file;
+}
+
+std::vector<std::string> list_reading_warnings(const CoastdownFile& file) {
+  std::vector<std::string> warnings;
+  if (file.rows_off > 0) warnings.push_back(format_count(file.rows_off, "row") + " left out: use = Off");
+  if (!file.left_out.problems.empty()) {
+    warnings.push_back(measurements::describe_left_out(file.left_out, "", file.path, "field"));
+  }
+  std::vector<std::string> unread;
+  for (const std::string& column : file.ignored_columns) {
+    if (column != "file" && column != "test_date") unread.push_back(column);  // they name the session
+  }
+  if (!unread.empty()) {
+    warnings.push_back(fmt::format("not read, since the form has no such column: {}", fmt::join(unread, ", ")));
+  }
+  return warnings;
 }
 
 }  // namespace rollrig::estimation

@@ -75,4 +75,7 @@ struct CoastdownFile {
 /// Checked  tests/estimation/coastdown_file_test.cpp, tests/cli/bad_input_test.cpp
 CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows = BadRows::kRefuse);
 
+/// What of a file is not used: rows that are off, bad rows, columns that its form does not have.
+std::vector<std::string> list_reading_warnings(const CoastdownFile& file);
+
 }  // namespace rollrig::estimation

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/QR>
+
+#include "sim/core/units.h"
+
 namespace rollrig::estimation {
 namespace {
 
@@ -97,7 +101,68 @@ SpeedCell make_cell(const CoastdownRun& run, std::size_t first, std::size_t end,
   return cell;
 }
 
+/// The samples [first, end) of `coast` that the parabola about a speed is fitted to.
+Range find_window(const std::vector<double>& smoothed, const Range& coast, double speed_m_s) {
+  constexpr double kHalf_m_s = 2.5 / kKmhPerMs;
+  constexpr double kWidest_m_s = 10.0 / kKmhPerMs;
+  constexpr std::size_t kWanted = 5;
+  const auto distance = [&](std::size_t i) { return std::abs(smoothed[i] - speed_m_s); };
+  Range window = coast;
+  while (window.first < coast.end && smoothed[window.first] > speed_m_s + kHalf_m_s) ++window.first;
+  window.end = window.first;
+  while (window.end < coast.end && smoothed[window.end] >= speed_m_s - kHalf_m_s) ++window.end;
+  while (window.end - window.first < kWanted) {
+    const bool has_before = window.first > coast.first && distance(window.first - 1) <= kWidest_m_s;
+    const bool has_after = window.end < coast.end && distance(window.end) <= kWidest_m_s;
+    if (!has_before && !has_after) break;
+    if (has_before && (!has_after || distance(window.first - 1) < distance(window.end))) {
+      --window.first;
+    } else {
+      ++window.end;
+    }
+  }
+  return window;
+}
+
+/// Where a parabola over time through the samples of the window has the speed.
+std::optional<double> solve_passing(const CoastdownRun& run, const Range& window, double speed_m_s) {
+  constexpr std::size_t kFewest = 4;
+  const std::size_t count = window.end - window.first;
+  if (count < kFewest) return std::nullopt;
+  double middle_s = 0.0;
+  for (std::size_t i = window.first; i < window.end; ++i) middle_s += run.time_s[i] / static_cast<double>(count);
+  Eigen::MatrixXd X(static_cast<Eigen::Index>(count), 3);
+  Eigen::VectorXd y(static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double s = run.time_s[window.first + i] - middle_s;
+    X.row(static_cast<Eigen::Index>(i)) << 1.0, s, s * s;
+    y(static_cast<Eigen::Index>(i)) = run.speed_m_s[window.first + i] - speed_m_s;
+  }
+  const Eigen::Vector3d parabola = X.colPivHouseholderQr().solve(y);
+  double s = -parabola(0) / parabola(1);
+  for (int i = 0; i < 4; ++i) s = -(parabola(0) + parabola(2) * s * s) / parabola(1);
+  const double length_s = run.time_s[window.end - 1] - run.time_s[window.first];
+  if (!std::isfinite(s) || std::abs(s) > length_s) return std::nullopt;
+  return middle_s + s;
+}
+
 }  // namespace
+
+std::vector<SpeedPassing> find_passing_times(const CoastdownRun& run, const std::vector<double>& speeds_m_s) {
+  std::vector<SpeedPassing> passings;
+  if (run.time_s.size() < 3 || speeds_m_s.empty()) return passings;
+  constexpr double kBelow_m_s = 10.0 / kKmhPerMs;
+  constexpr double kLeast_m_s = 0.5 / kKmhPerMs;
+  std::vector<double> smoothed = smooth(run);
+  const double lowest_m_s = *std::min_element(speeds_m_s.begin(), speeds_m_s.end());
+  const Range coast = find_coast(smoothed, std::max(lowest_m_s - kBelow_m_s, kLeast_m_s));
+  if (coast.end <= coast.first) return passings;
+  for (const double speed_m_s : speeds_m_s) {
+    if (speed_m_s > smoothed[coast.first] || speed_m_s < smoothed[coast.end - 1]) continue;
+    passings.push_back({speed_m_s, solve_passing(run, find_window(smoothed, coast, speed_m_s), speed_m_s)});
+  }
+  return passings;
+}
 
 std::vector<SpeedCell> cut_into_cells(const CoastdownRun& run, const CellOptions& options) {
   constexpr double kLeastShare = 0.4;         // of its width, that a cell at an end must hold. Assumed

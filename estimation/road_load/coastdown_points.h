@@ -2,6 +2,7 @@
 /// A speed trace, condensed to times at which nominal speeds are passed.
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "estimation/road_load/coastdown_file.h"
@@ -41,6 +42,19 @@ struct CellOptions {
 /// falls below the lowest or rises again. Every sample is in one cell at most. Too short a trace gives none.
 /// Checked   tests/estimation/coastdown_points_test.cpp
 std::vector<SpeedCell> cut_into_cells(const CoastdownRun& run, const CellOptions& options);
+
+/// A passing of a speed, for which a trace may have too few samples.
+struct SpeedPassing {
+  double speed_m_s = 0.0;
+  std::optional<double> time_s;
+};
+
+/// Times at which a trace falls below speeds: by a parabola over time through the samples within 2.5 km/h of each.
+/// Where these are fewer than five, the nearest five samples within 10 km/h; four of them at least, else no time. Speeds
+/// that the coasting part of the trace does not pass are left out.
+/// Source    Assumed: window and numbers. The third power of time adds 0.01 m/s at the ends of 10 s
+/// Checked   tests/estimation/coastdown_points_test.cpp
+std::vector<SpeedPassing> find_passing_times(const CoastdownRun& run, const std::vector<double>& speeds_m_s);
 
 /// Time at which the vehicle passes the nominal speed of a cell.
 /// Equation  mean(v_i) = mean(u - a s + a a' s^2/2 - (a a'^2 + a^2 a'') s^3/6),  s = t_i - t

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
+#include <Eigen/QR>
 
 #include "estimation/run_checks/robust_statistics.h"
 #include "sim/core/error.h"
@@ -58,9 +60,52 @@ std::string guess_time_unit(double deceleration_m_s2) {
   return "";
 }
 
+/// How far decelerations are from a parabola over speed: root of the mean square, relative to their mean. Infinite where
+/// one of them is not positive.
+double judge_decelerations(const std::vector<SpeedBin>& bins, const std::vector<double>& durations_s) {
+  const auto n = static_cast<Eigen::Index>(bins.size());
+  Eigen::MatrixXd X(n, 3);
+  Eigen::VectorXd y(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (!(durations_s[at] > 0.0)) return std::numeric_limits<double>::infinity();
+    const double v = 0.5 * (bins[at].high_m_s + bins[at].low_m_s);
+    X.row(i) << 1.0, v, v * v;
+    y(i) = (bins[at].high_m_s - bins[at].low_m_s) / durations_s[at];
+  }
+  const Eigen::Vector3d parabola = X.colPivHouseholderQr().solve(y);
+  return std::sqrt((y - X * parabola).squaredNorm() / static_cast<double>(n)) / y.mean();
+}
+
+/// Whether the times of a run fit a coastdown as times since its beginning, and not as times through each bin.
+bool looks_cumulative(const CoastdownRun& run) {
+  constexpr double kClearly = 3.0;  // Assumed: by how much better
+  constexpr std::size_t kFewest = 5;
+  if (run.bins.size() < kFewest) return false;
+  std::vector<double> durations_s, steps_s;
+  for (const SpeedBin& bin : run.bins) {
+    steps_s.push_back(bin.duration_s - (durations_s.empty() ? 0.0 : durations_s.back()));
+    durations_s.push_back(bin.duration_s);
+  }
+  return kClearly * judge_decelerations(run.bins, steps_s) < judge_decelerations(run.bins, durations_s);
+}
+
+/// Throws InputError where the times through bins add up in most runs.
+void require_single_durations(const CoastdownFile& file) {
+  const auto& runs = file.data.runs;
+  const auto cumulative = std::count_if(runs.begin(), runs.end(), &looks_cumulative);
+  if (2 * static_cast<std::size_t>(cumulative) <= runs.size()) return;
+  const CoastdownRun& first = *std::find_if(runs.begin(), runs.end(), &looks_cumulative);
+  throw InputError({"dt_s looks as if it were the time since the beginning of each run", file.path, 0, "dt_s",
+                    fmt::format("{:.4g} s in the first bin of run '{}', {:.4g} s in its last one",
+                                first.bins.front().duration_s, first.id, first.bins.back().duration_s),
+                    "the time through each bin alone", ""});
+}
+
 }  // namespace
 
 void require_coasting_decelerations(const CoastdownFile& file) {
+  require_single_durations(file);
   std::vector<double> decelerations_m_s2;
   for (const CoastdownRun& run : file.data.runs) {
     const double found_m_s2 = run.bins.empty() ? calc_trace_deceleration_m_s2(run) : calc_bins_deceleration_m_s2(run);

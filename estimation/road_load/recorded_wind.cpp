@@ -15,8 +15,13 @@
 namespace rollrig::estimation {
 namespace {
 
-constexpr double kLeastWindError_m_s = 0.5;
-constexpr double kLeastSlopeError = 0.002;
+/// Differences below which nothing is doubted.
+struct LeastError {
+  double of_any = 0.0;
+  double of_frame = 0.0;  // where the records are of the vehicle's frame: nothing else makes the headings opposite
+};
+constexpr LeastError kLeastWind_m_s{0.5, 0.1};
+constexpr LeastError kLeastSlope{0.002, 0.0002};
 
 /// Line over speed through what the force of a run has beyond the parabola of all runs.
 struct ForceLine {
@@ -94,10 +99,18 @@ std::optional<Comparison> compare_session(const std::vector<RecordedAndShown>& r
                     t * sd};
 }
 
-bool does_contradict(const Comparison& at, double least) {
+/// Whether the records have opposite signs in the headings, by the amount that both headings show.
+bool is_of_vehicle_frame(const Comparison& at) {
+  constexpr double kNear = 0.5;  // Assumed
+  const double opposite = std::abs(at.against);
+  return opposite > 2.0 * std::abs(at.recorded) && std::abs(std::abs(at.shown) - opposite) <= kNear * opposite;
+}
+
+bool does_contradict(const Comparison& at, const LeastError& least) {
   constexpr double kLeastShare = 0.5;
   const double recorded = std::max(std::abs(at.recorded), std::abs(at.against));
-  return std::abs(at.difference()) > std::max({least, kLeastShare * recorded, at.reach});
+  const double least_error = is_of_vehicle_frame(at) ? least.of_frame : least.of_any;
+  return std::abs(at.difference()) > std::max({least_error, kLeastShare * recorded, at.reach});
 }
 
 /// The mistake that would turn what is shown into what was recorded.
@@ -125,6 +138,21 @@ std::string guess_wind_mistake(const Comparison& at) {
   return "are its sign (positive against the + heading), its unit and its place beside the road right?";
 }
 
+std::string guess_slope_mistake(const Comparison& at) {
+  constexpr double kPercent = 100.0;
+  if (is_of_vehicle_frame(at)) {
+    return "it looks as if it were the slope in the direction of travel, which has another sign in each heading. The "
+           "column is that of the road, positive uphill in the + heading in runs of both headings";
+  }
+  if (std::abs(at.recorded + at.shown) < kLeastSlope.of_any) {
+    return "its sign looks reversed: it is positive uphill in the + heading";
+  }
+  if (std::abs(at.recorded / kPercent - at.shown) < kLeastSlope.of_any) {
+    return "it looks as if it were in percent; it is rise over run";
+  }
+  return "are its sign (positive uphill in the + heading) and its unit (rise over run) right?";
+}
+
 std::vector<std::string> list_sessions(const std::vector<RecordedAndShown>& runs) {
   std::vector<std::string> sessions;
   for (const RecordedAndShown& run : runs) {
@@ -135,7 +163,7 @@ std::vector<std::string> list_sessions(const std::vector<RecordedAndShown>& runs
 
 /// What contradicts in the sessions, each described by `describe`.
 template <class Describe>
-std::vector<std::string> doubt_sessions(const std::vector<RecordedAndShown>& runs, double least,
+std::vector<std::string> doubt_sessions(const std::vector<RecordedAndShown>& runs, const LeastError& least,
                                         const Describe& describe) {
   const std::vector<std::string> sessions = list_sessions(runs);
   std::vector<std::string> doubts;
@@ -183,30 +211,24 @@ std::vector<RecordedAndShown> list_slopes_by_force(const CoastdownData& data, co
 std::optional<double> find_contradiction(const std::vector<RecordedAndShown>& runs, double least) {
   for (const std::string& session : list_sessions(runs)) {
     const std::optional<Comparison> at = compare_session(runs, session);
-    if (at.has_value() && does_contradict(*at, least)) return at->difference();
+    if (at.has_value() && does_contradict(*at, {least, least})) return at->difference();
   }
   return std::nullopt;
 }
 
 std::vector<std::string> doubt_winds(const std::vector<RecordedAndShown>& runs, const std::string& shown_by,
                                      const std::string& column) {
-  return doubt_sessions(runs, kLeastWindError_m_s, [&](const Comparison& at) {
+  return doubt_sessions(runs, kLeastWind_m_s, [&](const Comparison& at) {
     return fmt::format("{} {:+.1f} m/s where {} has {:+.1f} m/s on average of both headings: {}", shown_by, at.shown,
                        column, at.recorded, guess_wind_mistake(at));
   });
 }
 
 std::vector<std::string> doubt_slopes(const std::vector<RecordedAndShown>& runs) {
-  constexpr double kPercent = 100.0;
-  return doubt_sessions(runs, kLeastSlopeError, [](const Comparison& at) {
-    const bool is_percent = std::abs(at.recorded / kPercent - at.shown) < kLeastSlopeError;
+  return doubt_sessions(runs, kLeastSlope, [](const Comparison& at) {
     return fmt::format(
         "the headings show a slope of {:+.4f} where the column slope has {:+.4f} on average of both headings: {}",
-        at.shown, at.recorded,
-        std::abs(at.recorded + at.shown) < kLeastSlopeError
-            ? "its sign looks reversed: it is positive uphill in the + heading"
-        : is_percent ? "it looks as if it were in percent; it is rise over run"
-                     : "are its sign (positive uphill in the + heading) and its unit (rise over run) right?");
+        at.shown, at.recorded, guess_slope_mistake(at));
   });
 }
 

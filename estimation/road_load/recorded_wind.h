@@ -42,12 +42,13 @@ std::vector<RecordedAndShown> list_slopes_by_force(const CoastdownData& data, co
 /// What contradicts the recorded winds, session by session: "the headings show 2.0 m/s, wind_m_s has -1.9 m/s: ...".
 /// `shown_by` is the subject, such as "the headings show"; `column` that of the records.
 /// Equation  difference D of the means over both headings; doubted where |D| > 0.5 m/s, |D| > 0.5 |w| of what was
-///           recorded, and |D| > t s, t of Student with a probability of 0.005, s by the scatter within the headings
+///           recorded, and |D| > t s, t of Student with a probability of 0.005, s by the scatter within the headings.
+///           0.1 m/s in place of 0.5 where the records are opposite in the headings, as a headwind is
 /// Source    Assumed: limits
 /// Checked   tests/estimation/recorded_wind_test.cpp
 std::vector<std::string> doubt_winds(const std::vector<RecordedAndShown>& runs, const std::string& shown_by,
                                      const std::string& column);
-/// The same of slopes, with 0.002 in place of 0.5 m/s.
+/// The same of slopes, with 0.002 in place of 0.5 m/s and 0.0002 in place of 0.1 m/s.
 std::vector<std::string> doubt_slopes(const std::vector<RecordedAndShown>& runs);
 
 /// By how much what is shown differs from the records in the first session in which it is more than `least`, more than

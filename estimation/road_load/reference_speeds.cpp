@@ -120,7 +120,9 @@ std::vector<ReferencePair> pair_up(const std::vector<ReferenceRun>& runs, const 
   }
   if (!alone.empty()) {
     warnings.push_back(
-        fmt::format("not used, since no run of the opposite heading goes with it: {}", fmt::join(alone, ", ")));
+        fmt::format("not used, since no run of the opposite heading in its session goes with it at the same reference "
+                    "speeds ({} to {} km/h): {}",
+                    part.speeds.back(), part.speeds.front(), fmt::join(alone, ", ")));
   }
   return pairs;
 }
@@ -284,6 +286,14 @@ PairTable make_pair_table(const std::vector<ReferenceRun>& runs, const PairRule&
 
 double PairRule::join(double plus, double minus) const {
   return harmonic ? 2.0 / (1.0 / plus + 1.0 / minus) : 0.5 * (plus + minus);
+}
+
+std::vector<std::size_t> ReferenceResult::list_used_runs() const {
+  std::set<std::size_t> used;
+  for (const ReferencePair& pair : pairs) {
+    if (pair.rejected.empty()) used.insert({pair.plus, pair.minus});
+  }
+  return {used.begin(), used.end()};
 }
 
 double calc_precision_coefficient(int pairs) {

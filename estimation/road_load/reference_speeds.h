@@ -54,6 +54,9 @@ struct ReferenceResult {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Eigen::Vector3d freedom = Eigen::Vector3d::Zero();
   std::vector<std::string> warnings;
+
+  /// Runs of the pairs that are not rejected, rising.
+  std::vector<std::size_t> list_used_runs() const;
 };
 
 /// Coefficient of the statistical precision for so many pairs, at least two.

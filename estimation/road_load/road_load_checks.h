@@ -2,6 +2,7 @@
 /// Whether coastdowns keep to what SAE J1263, J2263 and UN GTR 15 ask for, how they drift in a session, and how well
 /// pairs of both headings repeat.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,14 @@ struct PairPrecision {
 /// Validity  two runs more than coefficients; least squares, Student's t
 /// Checked   tests/estimation/road_load_checks_test.cpp
 std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const RoadLoadFit& fit);
+
+/// Probability that runs of sessions that do not differ show at least this difference of their sessions; absent where
+/// no session has two runs of a heading.
+/// Equation  F = (sum_s n_s (g_s - g)^2/(k - 1)) / (sum_r (g_r - g_sh)^2/(n - c)), F distribution
+/// Symbols   g_r as in find_session_drifts(); means g_s of the k sessions, g_sh of the c headings in sessions
+/// Source    one-way analysis of variance; the fit has a wind in each session
+/// Checked   tests/estimation/road_load_checks_test.cpp
+std::optional<double> find_session_chance(const CoastdownData& data, const RoadLoadFit& fit);
 
 /// Equation  p = t s/(sqrt(n) mean), pair time 2/(1/dt_+ + 1/dt_-), t: Student's, two-sided 95 %
 /// Source    70/220/EEC Annex III (the same form with 2 %); UN GTR 15 Annex 4, 4.3.1.4.2 (harmonized average, 3 %)

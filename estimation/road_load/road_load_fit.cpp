@@ -9,6 +9,7 @@
 #include <boost/math/distributions/students_t.hpp>
 
 #include "estimation/road_load/coastdown_problem.h"
+#include "estimation/road_load/road_load_checks.h"
 #include "estimation/road_load/road_load_doubts.h"
 #include "estimation/road_load/road_load_iteration.h"
 #include "sim/core/error.h"
@@ -184,12 +185,21 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
   if (!fit.ambient_corrected) {
     fit.warnings.push_back("no ambient temperature given: not corrected to reference conditions");
   }
+  const bool has_pressures = std::all_of(data.runs.begin(), data.runs.end(), [](const CoastdownRun& run) {
+    return !run.conditions.ambient_pressure_Pa.empty();
+  });
+  if (fit.ambient_corrected && !has_pressures) {
+    fit.warnings.push_back(fmt::format(
+        "no column ambient_pressure_kPa: {:.5g} kPa, that of reference, is taken for it, which has an effect on C",
+        1e-3 * options.reference_pressure_Pa));
+  }
   if (!fit.scatter.run_force_N.has_value() || !fit.scatter.run_speed_N_s_per_m.has_value()) {
     fit.warnings.push_back(
         "too few runs to tell how they differ from run to run: the standard deviations are those of the noise along a "
         "run, and too small");
   }
-  if (fit.scatter.session_force_N.value_or(0.0) > 0.0) {
+  constexpr double kUnlikely = 0.01;
+  if (fit.scatter.session_force_N.value_or(0.0) > 0.0 && find_session_chance(data, fit).value_or(1.0) < kUnlikely) {
     const double middle = 0.5 * (fit.high_m_s + fit.low_m_s);
     fit.warnings.push_back(fmt::format(
         "the sessions differ by a standard deviation of {:.1f} % of the force at {:.0f} km/h, more than their noise "

@@ -140,6 +140,12 @@ std::optional<double> find_common_wind(const CoastdownData& data) {
   return std::min(std::abs(sums[0] / counts[0]), std::abs(sums[1] / counts[1]));
 }
 
+CoastdownData keep_runs(const CoastdownData& data, const std::vector<std::size_t>& runs) {
+  CoastdownData kept;
+  for (const std::size_t run : runs) kept.runs.push_back(data.runs[run]);
+  return kept;
+}
+
 void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options, const AirRule& rule,
                     RoadLoadProcedure& procedure) {
   constexpr double kColdest_K = kZeroCelsius_K + 5.0;

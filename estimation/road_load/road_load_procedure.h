@@ -97,7 +97,11 @@ struct AirRule {
 constexpr AirRule kWltpAir{100e3, "UN GTR 15 Annex 4, 4.1.1.2 (not from the text)"};
 constexpr AirRule kSaeAir{98.21e3, "SAE J1263"};  // pressure: 40 CFR 1066.305
 
-/// Weather of the test and the pressure of reference; warns of what is missing.
+/// Those of the runs whose indices are given.
+CoastdownData keep_runs(const CoastdownData& data, const std::vector<std::size_t>& runs);
+
+/// Weather of the test and the pressure of reference; warns of what is missing. `data` are the runs that the result
+/// rests on: rejected ones have no part in its correction.
 void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options, const AirRule& rule,
                     RoadLoadProcedure& procedure);
 

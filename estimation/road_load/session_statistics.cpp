@@ -5,8 +5,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Dense>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 namespace rollrig::estimation {
@@ -143,6 +145,36 @@ std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const R
     if (drift.has_value()) drifts.push_back(*drift);
   }
   return drifts;
+}
+
+std::optional<double> find_session_chance(const CoastdownData& data, const RoadLoadFit& fit) {
+  struct Group {
+    double count = 0.0, sum = 0.0;
+    double mean() const { return sum / count; }
+  };
+  std::map<std::string, Group> sessions;
+  std::map<std::pair<std::string, int>, Group> headings;
+  Group all;
+  const std::map<std::size_t, double> deviations = find_deviations(fit);
+  for (const auto& [run, deviation] : deviations) {
+    const CoastdownRun& of = data.runs[run];
+    for (Group* group : {&sessions[of.session], &headings[{of.session, of.heading}], &all}) {
+      group->count += 1.0;
+      group->sum += deviation;
+    }
+  }
+  const double between_freedom = static_cast<double>(sessions.size()) - 1.0;
+  const double within_freedom = all.count - static_cast<double>(headings.size());
+  if (between_freedom < 1.0 || within_freedom < 1.0) return std::nullopt;
+  double between = 0.0, within = 0.0;
+  for (const auto& [name, group] : sessions) between += group.count * std::pow(group.mean() - all.mean(), 2);
+  for (const auto& [run, deviation] : deviations) {
+    const CoastdownRun& of = data.runs[run];
+    within += std::pow(deviation - headings[{of.session, of.heading}].mean(), 2);
+  }
+  if (!(within > 0.0)) return between > 0.0 ? 0.0 : 1.0;
+  const boost::math::fisher_f chance(between_freedom, within_freedom);
+  return boost::math::cdf(boost::math::complement(chance, between / between_freedom / (within / within_freedom)));
 }
 
 std::vector<PairPrecision> find_pair_precisions(const CoastdownData& data, const RoadLoadFit& fit) {

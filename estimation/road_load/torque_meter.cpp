@@ -366,11 +366,9 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   TorqueFile file = read_torque_file(path, bad_rows);
   select_torque_runs(options, sessions, file);
   leave_out_repeated_torques(file, procedure.warnings);
-  put_conditions(file.runs, options, kWltpAir, procedure);
+  std::vector<RoadLoadCheck> wind_checks;
   const std::vector<std::string> windy =
-      check_winds(file.runs, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, procedure.checks);
-  procedure.wind_m_s = find_common_wind(file.runs);
-  procedure.correction.wind_m_s = procedure.wind_m_s.value_or(0.0);
+      check_winds(file.runs, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, wind_checks);
   require_reference_speeds(path, file);
   const DynamicRadius radius = find_wheel_radius(path, file, options, procedure.warnings);
   procedure.wheel_radius_m = radius.radius_m;
@@ -397,6 +395,11 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   for (const auto& [km_h, sum] : sums) speeds_m_s[km_h] = sum.first / sum.second;
   const PairRule rule{false, 1.0, "torques"};
   procedure.reference = evaluate_reference_runs(runs, speeds_m_s, rule, windy);
+  const CoastdownData used = keep_runs(file.runs, procedure.reference.list_used_runs());
+  put_conditions(used, options, kWltpAir, procedure);
+  procedure.checks.insert(procedure.checks.end(), wind_checks.begin(), wind_checks.end());
+  procedure.wind_m_s = find_common_wind(used);
+  procedure.correction.wind_m_s = procedure.wind_m_s.value_or(0.0);
   for (const int km_h : procedure.reference.speeds) procedure.reference_speeds_m_s.push_back(speeds_m_s.at(km_h));
   procedure.warnings.insert(procedure.warnings.end(), procedure.reference.warnings.begin(),
                             procedure.reference.warnings.end());

@@ -389,7 +389,8 @@ void require_both_headings(const CoastdownData& data, const std::vector<TraceRun
 
 /// Pairs of the runs in their order; those with a run above the limits of the wind are rejected.
 std::vector<TraceRun> keep_pairs(const CoastdownData& data, std::vector<TraceRun> traces,
-                                 const std::vector<std::string>& windy, RoadLoadProcedure& procedure) {
+                                 const std::vector<std::string>& windy, std::vector<RoadLoadCheck>& checks,
+                                 std::vector<std::string>& warnings) {
   constexpr std::size_t kFewest = 3;
   constexpr std::size_t kWanted = 5;
   require_both_headings(data, traces);
@@ -406,7 +407,7 @@ std::vector<TraceRun> keep_pairs(const CoastdownData& data, std::vector<TraceRun
       return std::find(windy.begin(), windy.end(), name) != windy.end();
     };
     if (is_windy(names[0]) || is_windy(names[1])) {
-      procedure.warnings.push_back(
+      warnings.push_back(
           fmt::format("the pair of runs {} and {} is rejected: its wind is above the limits", names[0], names[1]));
       continue;
     }
@@ -415,7 +416,7 @@ std::vector<TraceRun> keep_pairs(const CoastdownData& data, std::vector<TraceRun
   }
   for (const auto& way : ways) {
     for (std::size_t i = pairs; i < way.size(); ++i) {
-      procedure.warnings.push_back(fmt::format("run {} is not used: no run of the opposite heading goes with it",
+      warnings.push_back(fmt::format("run {} is not used: no run of the opposite heading goes with it",
                                                name_of_run(data.runs[way[i]->index], data)));
     }
   }
@@ -427,7 +428,7 @@ std::vector<TraceRun> keep_pairs(const CoastdownData& data, std::vector<TraceRun
                                               : "at least three pairs; the procedures ask for five",
                       ""});
   }
-  procedure.checks.push_back({"pairs", kept.size() >= 2 * kWanted ? CheckStatus::kPass : CheckStatus::kFail,
+  checks.push_back({"pairs", kept.size() >= 2 * kWanted ? CheckStatus::kPass : CheckStatus::kFail,
                               fmt::format("{}", kept.size() / 2), ">= 5",
                               "Regulation (EU) 2017/1151, 4.3.2.4 of Sub-Annex 4; SAE J1263"});
   return kept;
@@ -504,9 +505,10 @@ void put_estimate(const LinearEstimate& estimate, const TraceTerms& terms, const
 /// Runs as traces, cut to the speeds of the options; names of all runs go to the procedure.
 std::vector<TraceRun> cut_traces(const CoastdownData& data, const RoadLoadProcedureOptions& options,
                                  RoadLoadProcedure& procedure) {
+  const double reference_pressure_Pa = options.reference_pressure_Pa.value_or(kSaeAir.reference_pressure_Pa);
   std::vector<TraceRun> traces;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    TraceRun trace = cut_trace(data.runs[i], i, options, procedure.correction.reference_pressure_Pa);
+    TraceRun trace = cut_trace(data.runs[i], i, options, reference_pressure_Pa);
     if (trace.stretch > 0 && trace.samples.size() >= kFewestStretches * trace.stretch)
       traces.push_back(std::move(trace));
     procedure.run_names.push_back(name_of_run(data.runs[i], data));
@@ -551,24 +553,35 @@ TraceTerms choose_terms(const CoastdownData& data, const CoastdownData& winds, b
   return terms;
 }
 
-RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoadProcedureOptions& options) {
+/// keep_pairs() within the limits of the wind; the conditions of the result are those of their runs.
+std::vector<TraceRun> keep_calm_pairs(const CoastdownData& data, const CoastdownData& winds, bool on_board,
+                                      std::vector<TraceRun> traces, const RoadLoadProcedureOptions& options,
+                                      RoadLoadProcedure& procedure) {
   constexpr WindLimits kOnBoard{7.0, 10.0, 4.0, "UN GTR 15 Annex 4, 4.1.1.1.2", "yaw_deg"};
   constexpr WindLimits kStationary{16.0 / 3.6, 20.0 / 3.6, 8.0 / 3.6, "SAE J1263"};
+  std::vector<RoadLoadCheck> checks;
+  const std::vector<std::string> windy = check_winds(winds, on_board ? kOnBoard : kStationary, checks);
+  check_slopes(data, checks);
+  traces = keep_pairs(data, std::move(traces), windy, checks, procedure.warnings);
+  std::vector<std::size_t> used;
+  for (const TraceRun& trace : traces) used.push_back(trace.index);
+  put_conditions(keep_runs(data, used), options, kSaeAir, procedure);
+  procedure.checks.insert(procedure.checks.end(), checks.begin(), checks.end());
+  procedure.wind_m_s = find_common_wind(keep_runs(winds, used));
+  return traces;
+}
+
+RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoadProcedureOptions& options) {
   RoadLoadProcedure procedure;
   procedure.kind = options.kind;
   const bool on_board = require_air(file.data, options);
   put_masses(options, procedure);
-  put_conditions(file.data, options, kSaeAir, procedure);
   std::vector<TraceRun> traces = cut_traces(file.data, options, procedure);
   const CoastdownData winds = find_checked_winds(file.data, on_board, traces, procedure);
-  const bool has_air = on_board || !file.data.runs.front().conditions.wind_m_s.empty();
-  const std::vector<std::string> windy = check_winds(winds, on_board ? kOnBoard : kStationary, procedure.checks);
-  check_slopes(file.data, procedure.checks);
-  procedure.wind_m_s = find_common_wind(winds);
-  if (!has_air) {
+  if (!on_board && file.data.runs.front().conditions.wind_m_s.empty()) {
     procedure.warnings.push_back("no column wind_m_s: the runs count as in still air");
   }
-  traces = keep_pairs(file.data, std::move(traces), windy, procedure);
+  traces = keep_calm_pairs(file.data, winds, on_board, std::move(traces), options, procedure);
   const TraceTerms terms = choose_terms(file.data, winds, on_board, traces, options, procedure);
   const double mass_kg = procedure.correction.mass_kg;
   std::vector<LinearBlock> blocks;

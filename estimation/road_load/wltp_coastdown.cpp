@@ -5,7 +5,6 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 
 #include "estimation/road_load/coastdown_points.h"
 #include "estimation/road_load/road_load_procedure.h"
@@ -22,30 +21,31 @@ constexpr int kHighestReference_km_h = 250;
 constexpr int kHalfStep_km_h = 5;
 constexpr double kMeterPerSecond = 1.0 / 3.6;  // of a km/h
 
-/// Times at which a trace passes 15, 25, 35 ... km/h: by a parabola through the samples of the cell about each.
-std::map<int, double> find_passing_times(const CoastdownRun& run, const RoadLoadProcedureOptions& options) {
-  constexpr int kCell_km_h = 5;
-  std::map<int, double> times;
-  for (const SpeedCell& cell :
-       cut_into_cells(run, {kCell_km_h * kMeterPerSecond, options.speed_from_m_s, options.speed_to_m_s})) {
-    const int km_h = kCell_km_h * static_cast<int>(std::lround(3.6 * cell.nominal_speed_m_s / kCell_km_h));
-    const double speed_m_s = km_h * kMeterPerSecond;
-    if (km_h % kReferenceStep_km_h != kHalfStep_km_h || cell.samples < 4) continue;
-    if (speed_m_s < cell.low_m_s || speed_m_s > cell.high_m_s) continue;
-    Eigen::MatrixXd X(cell.samples, 3);
-    Eigen::VectorXd y(cell.samples);
-    for (int i = 0; i < cell.samples; ++i) {
-      const std::size_t at = cell.first_sample + static_cast<std::size_t>(i);
-      const double s = run.time_s[at] - cell.mean_time_s;
-      X.row(i) << 1.0, s, s * s;
-      y(i) = run.speed_m_s[at] - speed_m_s;
-    }
-    const Eigen::Vector3d parabola = X.colPivHouseholderQr().solve(y);
-    double s = -parabola(0) / parabola(1);
-    for (int i = 0; i < 4; ++i) s = -(parabola(0) + parabola(2) * s * s) / parabola(1);
-    if (std::isfinite(s) && std::abs(s) <= cell.length_s) times[km_h] = cell.mean_time_s + s;
+/// Times by the edge, 15, 25, 35 ... km/h; edges that a run passes with too few samples for a time.
+struct EdgeTimes {
+  std::map<int, double> times_s;
+  std::vector<int> lost_km_h;
+};
+
+EdgeTimes find_edge_times(const CoastdownRun& run, const RoadLoadProcedureOptions& options) {
+  constexpr double kMargin_m_s = 1e-6;
+  std::vector<double> edges_m_s;
+  for (int km_h = kLowestReference_km_h - kHalfStep_km_h; km_h <= kHighestReference_km_h + kHalfStep_km_h;
+       km_h += kReferenceStep_km_h) {
+    const double edge_m_s = km_h * kMeterPerSecond;
+    if (edge_m_s < options.speed_from_m_s - kMargin_m_s || edge_m_s > options.speed_to_m_s + kMargin_m_s) continue;
+    edges_m_s.push_back(edge_m_s);
   }
-  return times;
+  EdgeTimes found;
+  for (const SpeedPassing& passing : find_passing_times(run, edges_m_s)) {
+    const auto km_h = static_cast<int>(std::lround(kKmhPerMs * passing.speed_m_s));
+    if (passing.time_s.has_value()) {
+      found.times_s[km_h] = *passing.time_s;
+    } else {
+      found.lost_km_h.push_back(km_h);
+    }
+  }
+  return found;
 }
 
 /// The same of times through bins: from the first edge on, as far as bins follow each other.
@@ -75,9 +75,9 @@ std::map<int, double> add_up_bins(const CoastdownRun& run) {
 }
 
 /// Times through v + 5 to v - 5 km/h at the reference speeds of a run.
-std::map<int, double> find_reference_times(const CoastdownRun& run, const RoadLoadProcedureOptions& options) {
+std::map<int, double> find_reference_times(const std::map<int, double>& passing,
+                                           const RoadLoadProcedureOptions& options) {
   constexpr double kAcrossGap_s = 1e5;
-  const std::map<int, double> passing = run.bins.empty() ? find_passing_times(run, options) : add_up_bins(run);
   std::map<int, double> times;
   for (int km_h = kLowestReference_km_h; km_h <= kHighestReference_km_h; km_h += kReferenceStep_km_h) {
     const auto upper = passing.find(km_h + kHalfStep_km_h);
@@ -92,10 +92,28 @@ std::map<int, double> find_reference_times(const CoastdownRun& run, const RoadLo
   return times;
 }
 
-std::vector<ReferenceRun> list_reference_runs(const CoastdownData& data, const RoadLoadProcedureOptions& options) {
+/// Says that a run passes speeds with too few samples. Throws InputError where it has no reference speed for that.
+void report_lost_speeds(const CoastdownRun& run, const ReferenceRun& of_run, const std::vector<int>& lost_km_h,
+                        std::vector<std::string>& warnings) {
+  if (lost_km_h.empty()) return;
+  const double interval_s = (run.time_s.back() - run.time_s.front()) / static_cast<double>(run.time_s.size() - 1);
+  const std::string what = fmt::format("run {} has too few samples near {} km/h for a time (on average one every {:.3g} s)",
+                                       of_run.name, fmt::join(lost_km_h, ", "), interval_s);
+  if (of_run.values.empty()) {
+    throw InputError({what, "", 0, "time_s", "", "four samples at least within 10 km/h of each limit of a speed bin",
+                      ""});
+  }
+  warnings.push_back(what + ": the reference speeds beside it are not in this run");
+}
+
+std::vector<ReferenceRun> list_reference_runs(const CoastdownData& data, const RoadLoadProcedureOptions& options,
+                                              std::vector<std::string>& warnings) {
   std::vector<ReferenceRun> runs;
   for (const CoastdownRun& run : data.runs) {
-    runs.push_back({name_of_run(run, data), run.session, run.heading, find_reference_times(run, options)});
+    const EdgeTimes edges = run.bins.empty() ? find_edge_times(run, options) : EdgeTimes{add_up_bins(run), {}};
+    runs.push_back(
+        {name_of_run(run, data), run.session, run.heading, find_reference_times(edges.times_s, options)});
+    report_lost_speeds(run, runs.back(), edges.lost_km_h, warnings);
   }
   const bool none = std::all_of(runs.begin(), runs.end(), [](const ReferenceRun& run) { return run.values.empty(); });
   if (none && !data.runs.empty() && !data.runs.front().bins.empty()) {
@@ -160,10 +178,10 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
   RoadLoadProcedure procedure;
   procedure.kind = RoadLoadProcedureKind::kWltp;
   put_masses(options, procedure);
-  put_conditions(file.data, options, kWltpAir, procedure);
+  std::vector<RoadLoadCheck> wind_checks;
   const std::vector<std::string> windy =
-      check_winds(file.data, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, procedure.checks);
-  const std::vector<ReferenceRun> runs = list_reference_runs(file.data, options);
+      check_winds(file.data, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, wind_checks);
+  const std::vector<ReferenceRun> runs = list_reference_runs(file.data, options, procedure.warnings);
   for (const ReferenceRun& run : runs) procedure.run_names.push_back(run.name);
   require_speeds_in_km_h(file, runs);
   std::map<int, double> speeds_m_s;
@@ -173,6 +191,9 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
   const double mass_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
   const PairRule rule{true, mass_kg * 2.0 * kHalfStep_km_h * kMeterPerSecond, "coastdown times"};
   procedure.reference = evaluate_reference_runs(runs, speeds_m_s, rule, windy);
+  const CoastdownData used = keep_runs(file.data, procedure.reference.list_used_runs());
+  put_conditions(used, options, kWltpAir, procedure);
+  procedure.checks.insert(procedure.checks.end(), wind_checks.begin(), wind_checks.end());
   for (const int km_h : procedure.reference.speeds) procedure.reference_speeds_m_s.push_back(speeds_m_s.at(km_h));
   procedure.warnings.insert(procedure.warnings.end(), procedure.reference.warnings.begin(),
                             procedure.reference.warnings.end());
@@ -180,7 +201,7 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
     procedure.warnings.push_back(
         "no column wind_m_s: nothing is subtracted for the wind, which both headings have in f0 (f2 times its square)");
   }
-  procedure.wind_m_s = find_common_wind(file.data);
+  procedure.wind_m_s = find_common_wind(used);
   procedure.correction.wind_m_s = procedure.wind_m_s.value_or(0.0);
   check_reference_speeds(procedure);
   check_reference_precision(procedure);
