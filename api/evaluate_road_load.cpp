@@ -59,17 +59,13 @@ void select_coastdowns(const std::vector<std::string>& sessions, const std::vect
 }
 
 /// What speaks against runs: the same recording twice, labels, odd runs.
-std::vector<std::string> doubt_runs(const RoadLoadProcedureOptions& options, CoastdownFile& file) {
+std::vector<estimation::RunDoubt> doubt_runs(const RoadLoadProcedureOptions& options, CoastdownFile& file) {
   RoadLoadFitOptions how;
   how.mass_kg = options.mass_kg;
   how.rotating_mass_kg = options.rotating_mass_kg;
   how.speed_from_m_s = options.speed_from_m_s;
   how.speed_to_m_s = options.speed_to_m_s;
-  std::vector<std::string> texts;
-  for (const estimation::RunDoubt& doubt : estimation::check_coastdowns(file.data, how).doubts) {
-    texts.push_back(doubt.text);
-  }
-  return texts;
+  return estimation::check_coastdowns(file.data, how).doubts;
 }
 
 struct RunName {
@@ -119,15 +115,19 @@ RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedure
   if (file.data.runs.empty()) {
     throw InputError({"all runs are left out", "command line", 0, "--leave-out", "", "runs that stay", ""});
   }
+  const std::optional<double> given_mass_kg = options.mass_kg;
   if (!options.mass_kg.has_value() && file.vehicle.has_value()) {
     options.mass_kg = file.vehicle->mass_kg;
     options.rotating_mass_kg = file.vehicle->rotating_mass_kg;
   }
   const std::vector<RunName> runs = list_run_names(file.data);
-  const std::vector<std::string> doubts = doubt_runs(options, file);
+  std::vector<estimation::RunDoubt> doubts = doubt_runs(options, file);
   RoadLoadProcedure procedure = evaluate_checked(file, options, list_dropped(runs, file.data));
   procedure.is_simulated = file.is_simulated;
-  procedure.warnings.insert(procedure.warnings.begin(), doubts.begin(), doubts.end());
+  std::vector<std::string> texts = estimation::doubt_vehicle(file, given_mass_kg, std::nullopt);
+  for (const estimation::RunDoubt& doubt : doubts) texts.push_back(doubt.text);
+  procedure.warnings.insert(procedure.warnings.begin(), texts.begin(), texts.end());
+  procedure.doubts = std::move(doubts);
   for (std::string& warning : estimation::list_reading_warnings(file)) procedure.warnings.push_back(std::move(warning));
   return procedure;
 }

@@ -114,6 +114,9 @@ RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
   select_sessions(sessions, *file);
   leave_out_runs(options.leave_out, *file);
   const auto fit = std::make_shared<RoadLoadFit>(fit_file(path, *file, options));
+  for (std::string& doubt : estimation::doubt_vehicle(*file, given.mass_kg, given.drag_area_m2)) {
+    fit->warnings.push_back(std::move(doubt));
+  }
   for (std::string& warning : estimation::list_reading_warnings(*file)) fit->warnings.push_back(std::move(warning));
   const RoadLoadChecks checks = estimation::check_road_load(file->data, *fit);
   RoadLoad result;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "api/add_uncertainty.h"
@@ -21,6 +22,33 @@ namespace {
 
 using estimation::RollingTest;
 
+/// Takes an option in place of what the file says; warns where both contradict each other.
+void put_option(const std::optional<double>& given, const char* option, const char* unit, double per_SI,
+                std::optional<double>& value, std::vector<std::string>& warnings) {
+  constexpr double kSame = 0.005;  // Assumed: rounding
+  if (!given.has_value()) return;
+  if (value.has_value() && std::abs(*given / *value - 1.0) > kSame) {
+    warnings.push_back(fmt::format("{} is {:g} {}, but the result has {:g} {}: the standard reference condition is "
+                                   "that of the option",
+                                   option, per_SI * *given, unit, per_SI * *value, unit));
+  }
+  value = given;
+}
+
+/// The standard reference pressure is one that is set cold; a law over warm pressures is evaluated there.
+void warn_of_warm_pressure(const std::string& path, RollingTest& test) {
+  const RollingTest cold = estimation::read_rolling_test(path, estimation::PressureTaken::kSet);
+  double rise_Pa = 0.0;
+  for (std::size_t i = 0; i < test.points.size(); ++i) {
+    rise_Pa += (test.points[i].pressure_Pa - cold.points[i].pressure_Pa) / static_cast<double>(test.points.size());
+  }
+  test.warnings.push_back(fmt::format(
+      "--warm-pressure: the law is one of the pressure in the warm tire, on average {:.0f} kPa above the one that was "
+      "set. The standard reference pressure is a cold one; taken as a warm one, it is that of a tire set to about "
+      "{:.0f} kPa less",
+      rise_Pa / 1e3, rise_Pa / 1e3));
+}
+
 /// The points of a file, and of the tire what the options say.
 RollingTest read_points(const std::string& path, const RollingLawOptions& options) {
   if (options.maximum_load_N.has_value()) {
@@ -35,8 +63,9 @@ RollingTest read_points(const std::string& path, const RollingLawOptions& option
     throw InputError({"--warm-pressure is for results: a file of points has one pressure", path, 0, "--warm-pressure",
                       "", "no --warm-pressure, or the folder or result.json of a run", ""});
   }
-  if (options.maximum_load_N.has_value()) test.maximum_load_N = options.maximum_load_N;
-  if (options.base_pressure_Pa.has_value()) test.base_pressure_Pa = options.base_pressure_Pa;
+  put_option(options.maximum_load_N, "--maximum-load", "N", 1.0, test.maximum_load_N, test.warnings);
+  put_option(options.base_pressure_Pa, "--base-pressure", "kPa", 1e-3, test.base_pressure_Pa, test.warnings);
+  if (options.warm_pressure) warn_of_warm_pressure(path, test);
   return test;
 }
 
@@ -88,7 +117,7 @@ void warn_of_reference(const estimation::ReferenceCondition& at, bool has_speed,
 estimation::CycleForces read_cycles(const RollingLawOptions& options, std::vector<std::string>& warnings) {
   const auto read = [&warnings](const std::string& name) {
     const scenarios::SpeedTrace trace = scenarios::read_speed_trace(name);
-    if (const auto doubt = scenarios::doubt_acceleration(trace)) warnings.push_back(*doubt);
+    for (std::string& doubt : scenarios::doubt_trace(trace)) warnings.push_back(std::move(doubt));
     return estimation::calc_speed_moments(trace.time_s, trace.speed_m_s);
   };
   return {options.urban_cycle, options.highway_cycle, read(options.urban_cycle), read(options.highway_cycle)};

@@ -93,6 +93,7 @@ std::optional<NamedCoefficient> find_coefficient(const std::string& name) {
 std::array<double, 3> parse_target(const std::string& given) {
   const std::string allowed = "A, B, C or f0, f1, f2 in N and km/h, or A_lbf, B_lbf, C_lbf, as A=120,B=0.5,C=0.03";
   std::array<double, 3> target{};
+  std::array<int, 3> counts{};
   std::vector<std::string> parts;
   boost::algorithm::split(parts, given, [](char c) { return c == ','; });
   for (const std::string& part : parts) {
@@ -103,6 +104,12 @@ std::array<double, 3> parse_target(const std::string& given) {
       throw usage_error(fmt::format("target '{}' is not understood", part), "--target", given, allowed);
     }
     target[coefficient->which] = coefficient->unit_SI * *value;
+    ++counts[coefficient->which];
+  }
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 1) continue;
+    throw usage_error(fmt::format("the target has {} {}", kNames[i], counts[i] == 0 ? "missing" : "more than once"),
+                      "--target", given, allowed);
   }
   return target;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "estimation/road_load/road_load_report.h"
+#include "estimation/run_checks/doubts_json.h"
 #include "report/blocks.h"
 #include "sim/core/csv.h"
 #include "sim/core/text.h"
@@ -351,6 +352,7 @@ Json make_procedure_json(const RoadLoadProcedure& procedure) {
             {"limit", check.limit},
             {"clause", check.clause}};
   });
+  if (!procedure.doubts.empty()) json["doubts"] = estimation::make_doubts_json(procedure.doubts);
   json["warnings"] = procedure.warnings;
   return json;
 }

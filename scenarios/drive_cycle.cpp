@@ -120,13 +120,16 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   results.wheels = describe_wheels(settings.conditions, layout);
   const SpeedTrace trace = read_speed_trace(settings.cycle.value);
   results.cycle = trace.name;
-  if (const auto doubt = doubt_acceleration(trace)) outcome.warnings.push_back(*doubt);
+  for (std::string& doubt : doubt_trace(trace)) outcome.warnings.push_back(std::move(doubt));
   for (std::size_t i = 0; i < outcome.recording.phases.size(); ++i) {
     if (outcome.recording.phases[i].name.rfind("cycle", 0) != 0) continue;
     results.sections.push_back(evaluate_section(spec, layout, outcome.recording, i));
   }
   results.total = add_up(results.sections);
   find_economy(spec, results);
+  if (results.range_m.has_value()) {
+    if (const auto doubt = doubt_range(*results.range_m, *results.usable_J)) outcome.warnings.push_back(*doubt);
+  }
   warn_of_map(spec, layout, outcome);
   std::vector<ReportedCycle> cycles;
   if (results.consumption_J_per_m.has_value()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -102,6 +103,30 @@ void check_loads(const CoastSet& set, CoastDoubts& checked) {
   }
 }
 
+/// Runs of the lifted wheel that slow down otherwise than the others of it.
+void check_lifted_wheels(const CoastSet& set, const std::vector<CoastAnalysis>& analyses, CoastDoubts& checked) {
+  constexpr double kMostFactor = 2.0;  // Assumed: friction of cold bearings is less than twice that of warm ones
+  constexpr std::size_t kFewest = 3;   // of which one is the odd one
+  const std::vector<CoastCurve> curves = make_coast_curves(analyses, CoastBody::kWheel);
+  const std::vector<const CoastCurve*> wheels = select_state(set, curves, CoastState::kLifted, {});
+  for (const CoastCurve* wheel : wheels) {
+    std::vector<const CoastCurve*> others;
+    std::copy_if(wheels.begin(), wheels.end(), std::back_inserter(others),
+                 [wheel](const CoastCurve* other) { return other != wheel; });
+    const CurveRatio ratio = compare_curves(*wheel, calc_median_curve(others));
+    if (ratio.bins == 0 || std::abs(ratio.log) < std::log(kMostFactor)) continue;
+    const CoastRun& run = set.runs[wheel->run];
+    RunDoubt doubt{DoubtKind::kOdd, {run.id}, "another body", std::expm1(ratio.log), ""};
+    doubt.text = fmt::format(
+        "{}: the wheel slows down {:.3g} times as fast as in the other {} of the lifted wheel: is its body 'wheel', and "
+        "was it free?",
+        run.id, std::exp(ratio.log), others.size() == 1 ? "run" : "runs");
+    checked.doubts.push_back(doubt);
+    if (wheels.size() < kFewest) return;  // of two, nothing tells which one
+    if (!run.drum.has_value()) checked.set_aside.insert(wheel->run);
+  }
+}
+
 }  // namespace
 
 CoastDoubts check_coasts(const CoastSet& set, const std::vector<CoastAnalysis>& analyses) {
@@ -114,6 +139,7 @@ CoastDoubts check_coasts(const CoastSet& set, const std::vector<CoastAnalysis>& 
     }
   }
   check_loads(set, checked);
+  check_lifted_wheels(set, analyses, checked);
   add_odd_coasts(set, curves, checked);
   return checked;
 }

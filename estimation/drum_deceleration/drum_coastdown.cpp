@@ -186,6 +186,21 @@ void require_drum_deceleration(const CoastSet& set, DrumCoastdownFit& fit) {
       "time_s", fmt::format("a deceleration of {:g} to {:g} m/s2", kLeast_m_s2, kMost_m_s2), fit);
 }
 
+/// Doubts a rolling radius that looks like a diameter.
+void doubt_rolling_radius(const CoastSet& set, DrumCoastdownFit& fit) {
+  constexpr double kMost_m = 0.6;     // Assumed: truck tires have up to 0.55
+  constexpr double kMostCar_m = 0.45;  // Assumed: above it are truck tires, whose wheels have some 30 kg at the radius
+  constexpr double kLeastTruck_kg = 20.0;
+  if (!set.wheel_rolling_radius_m.has_value()) return;
+  const double radius_m = *set.wheel_rolling_radius_m;
+  const double wheel_kg = set.wheel_inertia_kg_m2.value_or(1e9) / (radius_m * radius_m);
+  if (radius_m <= kMost_m && (radius_m <= kMostCar_m || wheel_kg >= kLeastTruck_kg)) return;
+  fit.warnings.push_back(
+      fmt::format("rolling_radius_m of [wheel] is {:g} m; tires of cars have 0.25 to 0.4 m, of trucks up to 0.55 m "
+                  "(Assumed). Is it the diameter? Half of it is {:g} m",
+                  radius_m, 0.5 * radius_m));
+}
+
 /// Refuses inertias that no drum and wheel have together, doubts those of an unusual wheel.
 void doubt_inertias(const CoastSet& set, DrumCoastdownFit& fit) {
   constexpr double kMostMassRatio = 0.5;                        // Assumed: wheels have 0.01 to 0.1 of the drum's mass
@@ -198,6 +213,7 @@ void doubt_inertias(const CoastSet& set, DrumCoastdownFit& fit) {
                     fit.mass_ratio),
         "[drum], [wheel]", "a drum that is much heavier than the wheel", fit);
   }
+  doubt_rolling_radius(set, fit);
   if (!set.wheel_inertia_kg_m2.has_value() || !set.wheel_rolling_radius_m.has_value()) return;
   const double wheel_kg = *set.wheel_inertia_kg_m2 / std::pow(*set.wheel_rolling_radius_m, 2);
   if (wheel_kg >= kLeastWheel_kg && wheel_kg <= kMostWheel_kg) return;

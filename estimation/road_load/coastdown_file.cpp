@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -334,6 +335,25 @@ CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows) {
   CoastdownFile file = read_coastdown_rows(path, bad_rows);
   require_coasting_decelerations(file);
   return file;
+}
+
+std::vector<std::string> doubt_vehicle(const CoastdownFile& file, const std::optional<double>& mass_kg,
+                                       const std::optional<double>& drag_area_m2) {
+  constexpr double kSame = 0.02;  // Assumed: what masses of one vehicle differ by
+  std::vector<std::string> doubts;
+  if (!file.vehicle.has_value()) return doubts;
+  const auto differ = [](double given, double recorded) { return std::abs(given / recorded - 1.0) > kSame; };
+  if (mass_kg.has_value() && differ(*mass_kg, file.vehicle->mass_kg)) {
+    doubts.push_back(
+        fmt::format("--mass is {:g} kg, but the manifest beside the recording has a vehicle of {:g} kg: all forces are "
+                    "in proportion to the mass",
+                    *mass_kg, file.vehicle->mass_kg));
+  }
+  if (drag_area_m2.has_value() && differ(*drag_area_m2, file.vehicle->drag_area_m2)) {
+    doubts.push_back(fmt::format("--drag-area is {:g} m2, but the manifest beside the recording has {:g} m2",
+                                 *drag_area_m2, file.vehicle->drag_area_m2));
+  }
+  return doubts;
 }
 
 std::vector<std::string> list_reading_warnings(const CoastdownFile& file) {

@@ -75,6 +75,10 @@ struct CoastdownFile {
 /// Checked  tests/estimation/coastdown_file_test.cpp, tests/cli/bad_input_test.cpp
 CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows = BadRows::kRefuse);
 
+/// Doubts where a recording of a simulation has another mass or drag area than the one that is given: "--mass is ...".
+std::vector<std::string> doubt_vehicle(const CoastdownFile& file, const std::optional<double>& mass_kg,
+                                       const std::optional<double>& drag_area_m2);
+
 /// What of a file is not used: rows that are off, bad rows, columns that its form does not have.
 std::vector<std::string> list_reading_warnings(const CoastdownFile& file);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -35,11 +36,30 @@ std::vector<std::string> read_sessions(const CsvTable& table) {
   return std::vector<std::string>(table.row_count());
 }
 
+/// Throws InputError where headings are a code, such as 1 and 2: as degrees, all would be one heading.
+void require_degrees(const CsvTable& table, const std::vector<std::string>& cells) {
+  constexpr double kMostCode = 4.0;  // Assumed
+  std::set<double> values;
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string text = boost::algorithm::trim_copy(cells[i]);
+    const std::optional<double> value = parse_number(text);
+    if (!value.has_value() || text[0] == '+' || text[0] == '-' || *value != std::round(*value)) return;
+    if (values.insert(*value).second && values.size() == 2) row = i;
+  }
+  if (values.size() < 2 || *values.rbegin() > kMostCode) return;
+  throw table.cell_error(row, "heading",
+                         fmt::format("{:g} and {:g} look like a code of the headings; as degrees they are one heading",
+                                     *values.begin(), *values.rbegin()),
+                         "+ or -, or degrees of the compass");
+}
+
 /// "+" and "-" as they are; degrees against the first heading of the file.
 std::vector<int> read_headings(CheckedRows& rows) {
   std::vector<int> headings(rows.row_count(), 0);
   if (!rows.table().has("heading")) return headings;
   const std::vector<std::string> cells = rows.table().text("heading");
+  require_degrees(rows.table(), cells);
   std::optional<double> first_deg;
   for (std::size_t row = 0; row < cells.size(); ++row) {
     const std::string text = boost::algorithm::trim_copy(cells[row]);

@@ -147,6 +147,18 @@ void check_slopes(const CoastdownData& data, std::vector<RoadLoadCheck>& checks)
   checks.push_back(check("slope, constant", change, "no column slope", "within 0.2 %", "SAE J1263 7.4"));
 }
 
+std::optional<std::string> doubt_ambient(const CoastdownData& data) {
+  constexpr double kMost_degC = 40.0;
+  const std::vector<double> ambient_K = gather(data, &CoastdownConditions::ambient_K);
+  if (ambient_K.empty()) return std::nullopt;
+  const double mean_degC = calc_mean(ambient_K) - kZeroCelsius_K;
+  if (mean_degC <= kMost_degC) return std::nullopt;
+  return fmt::format(
+      "the air was at {:.1f} degC on average, where the procedures end at 35: is ambient_degC in degrees Fahrenheit "
+      "({:.1f} degC then)? The correction to reference conditions rests on it",
+      mean_degC, (mean_degC - 32.0) / 1.8);
+}
+
 RoadLoadChecks check_road_load(const CoastdownData& data, const RoadLoadFit& fit) {
   RoadLoadChecks result;
   result.drifts = find_session_drifts(data, fit);

@@ -67,6 +67,10 @@ struct RoadLoadChecks {
   std::vector<PairPrecision> precisions;
 };
 
+/// A question about air that is hotter than any test allows, as of degrees Fahrenheit.
+/// Assumed: 40 degC on average; the procedures end at 35
+std::optional<std::string> doubt_ambient(const CoastdownData& data);
+
 /// The recorded slope against the limits of SAE J1263.
 void check_slopes(const CoastdownData& data, std::vector<RoadLoadCheck>& checks);
 

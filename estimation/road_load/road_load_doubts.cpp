@@ -67,6 +67,21 @@ std::vector<std::string> doubt_road_load(const models::RoadLoad<double>& load, d
   return doubts;
 }
 
+std::optional<std::string> doubt_torque_scale(const models::RoadLoad<double>& load, double mass_kg, double radius_m) {
+  constexpr double kLowRolling = 0.0055;  // Assumed: of the weight; few cars have less, and these not the next as well
+  constexpr double kLowDrag_m2 = 0.45;    // Assumed
+  constexpr double kMostRadius_m = 0.45;  // Assumed: of a car
+  constexpr double kMostCar_kg = 3500.0;
+  const double rolling = calc_rolling_share(load, mass_kg);
+  const double area_m2 = calc_drag_area_m2(load);
+  const bool is_half = rolling < kLowRolling && area_m2 < kLowDrag_m2;
+  if (!is_half && !(radius_m > kMostRadius_m && mass_kg < kMostCar_kg)) return std::nullopt;
+  return fmt::format(
+      "the wheel radius is {:.3f} m, the rolling loss {:.4f} of the weight, the drag area {:.2f} m2: is the radius not "
+      "a diameter, and wheel_torque_Nm the sum of all driven wheels? Either mistake halves the forces",
+      radius_m, rolling, area_m2);
+}
+
 std::vector<std::string> doubt_masses(double mass_kg, const std::optional<double>& rotating_mass_kg,
                                       const std::optional<double>& corrected_to_mass_kg) {
   constexpr double kLeastRotating = 0.005, kMostRotating = 0.15;  // Assumed: far from those of vehicles in neutral

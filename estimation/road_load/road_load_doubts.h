@@ -18,6 +18,11 @@ double calc_rolling_share(const models::RoadLoad<double>& load, double mass_kg);
 /// Checked   tests/estimation/road_load_doubts_test.cpp
 std::vector<std::string> doubt_road_load(const models::RoadLoad<double>& load, double mass_kg, double top_speed_m_s);
 
+/// What speaks against a force that was found by the torque of the wheels, whose rolling loss and drag area would both
+/// be usual if it were twice as large: a diameter for the radius, or the torque of one wheel of two.
+/// Checked   tests/estimation/road_load_doubts_test.cpp
+std::optional<std::string> doubt_torque_scale(const models::RoadLoad<double>& load, double mass_kg, double radius_m);
+
 /// What speaks against masses, one sentence each: a rotating mass that is no part of a vehicle's, a mass to correct to
 /// that is far from the one as tested. Absent masses are not doubted.
 /// Checked   tests/estimation/road_load_doubts_test.cpp

@@ -174,6 +174,19 @@ void put_range(const CoastdownProblem& problem, RoadLoadFit& fit) {
   }
 }
 
+/// The drag area that is given against the one of C, which holds all that goes with the square of the speed.
+void doubt_drag_area(const RoadLoadFitOptions& options, RoadLoadFit& fit) {
+  constexpr double kMostFactor = 2.0;  // Assumed: the square of the rolling loss is far less than the drag
+  if (!options.drag_area_m2.has_value() || fit.per_mass) return;
+  const double per_C = 2.0 / calc_reference_density_kg_m3(options);
+  const double low_m2 = per_C * fit.interval_95(2)[0], high_m2 = per_C * fit.interval_95(2)[1];
+  const double given_m2 = *options.drag_area_m2;
+  if (given_m2 <= kMostFactor * high_m2 && given_m2 >= low_m2 / kMostFactor) return;
+  fit.warnings.push_back(fmt::format(
+      "--drag-area is {:g} m2, but C is that of {:.3g} m2: is it the drag area Cd A in m2? The wind is corrected by it",
+      given_m2, per_C * fit.load.C_N_s2_per_m2));
+}
+
 void warn(const CoastdownProblem& problem, const CoastdownData& data, const RoadLoadFitOptions& options,
           RoadLoadFit& fit) {
   const std::size_t left_out = data.runs.size() - problem.runs.size();
@@ -185,6 +198,7 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
   if (!fit.ambient_corrected) {
     fit.warnings.push_back("no ambient temperature given: not corrected to reference conditions");
   }
+  if (const auto doubt = doubt_ambient(data)) fit.warnings.push_back(*doubt);
   const bool has_pressures = std::all_of(data.runs.begin(), data.runs.end(), [](const CoastdownRun& run) {
     return !run.conditions.ambient_pressure_Pa.empty();
   });
@@ -206,6 +220,7 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
         "explains; where they cover different speeds this bends the curve",
         100.0 * *fit.scatter.session_force_N / fit.force_N(middle), 3.6 * middle));
   }
+  doubt_drag_area(options, fit);
   if (!options.mass_kg.has_value()) {
     fit.warnings.push_back("no mass given: A, B and C are per unit of effective mass");
   } else {

@@ -167,6 +167,7 @@ void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& o
                     "effect on f2",
                     1e-3 * correction.reference_pressure_Pa));
   }
+  if (const auto doubt = doubt_ambient(data)) procedure.warnings.push_back(*doubt);
   double coldest_K = std::numeric_limits<double>::infinity();
   double hottest_K = 0.0;
   for (const CoastdownRun& run : data.runs) {

@@ -12,6 +12,7 @@
 #include "estimation/road_load/reference_conditions.h"
 #include "estimation/road_load/reference_speeds.h"
 #include "estimation/road_load/road_load_checks.h"
+#include "estimation/run_checks/run_doubt.h"
 #include "include/rollrig/road_load_options.h"
 
 namespace rollrig::estimation {
@@ -54,6 +55,7 @@ struct RoadLoadProcedure {
   std::vector<double> reference_speeds_m_s;
   std::vector<ProcedurePoint> points;
   std::vector<RoadLoadCheck> checks;
+  std::vector<RunDoubt> doubts;  // of runs; their texts are among the warnings too
   std::vector<std::string> warnings;
 
   /// Standard deviation of a coefficient: scatter of the runs and accuracy of the sensors.

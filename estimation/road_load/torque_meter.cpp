@@ -10,6 +10,7 @@
 #include "estimation/road_load/coastdown_repeats.h"
 #include "estimation/road_load/coastdown_rows.h"
 #include "estimation/road_load/coastdown_units.h"
+#include "estimation/road_load/road_load_doubts.h"
 #include "estimation/road_load/road_load_procedure.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -416,6 +417,10 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   put_fitted(procedure);
   doubt_recorded_conditions(file.runs, "wind_m_s", false, procedure);
   doubt_units(procedure);
+  const models::RoadLoad<double> load{procedure.road_load(0), procedure.road_load(1), procedure.road_load(2)};
+  if (const auto doubt = doubt_torque_scale(load, procedure.correction.mass_kg, procedure.wheel_radius_m)) {
+    procedure.warnings.push_back(*doubt);
+  }
   return procedure;
 }
 

@@ -538,7 +538,11 @@ TraceTerms choose_terms(const CoastdownData& data, const CoastdownData& winds, b
   terms.has_slope = std::all_of(data.runs.begin(), data.runs.end(),
                                 [](const CoastdownRun& run) { return run.conditions.slope.empty(); });
   if (terms.yaw_degree == 0) return terms;
-  if (on_board && has_yaw(data, on_board)) doubt_yaw_unit(winds, traces, procedure.warnings);
+  if (on_board && has_yaw(data, on_board)) {
+    std::vector<std::string> doubts;  // before those that follow from it
+    doubt_yaw_unit(winds, traces, doubts);
+    procedure.warnings.insert(procedure.warnings.begin(), doubts.begin(), doubts.end());
+  }
   const double widest_rad = find_widest_yaw(traces);
   if (!has_yaw(data, on_board)) {
     terms.yaw_degree = 0;

@@ -91,7 +91,7 @@ void put_multipoint_coefficients(MultipointFit& fit) {
 }
 
 void warn_of_multipoint(MultipointFit& fit) {
-  constexpr double kUnlikely = 0.05;
+  constexpr double kUnlikely = 0.01;
   if (fit.statistics.freedom == 0) {
     fit.warnings.push_back(
         "as many coefficients as points: the law passes through all of them, and no standard deviation is known");

@@ -190,7 +190,7 @@ void put_coefficients(const Vector5& found, J2452Fit& fit) {
 }
 
 void warn_of_j2452(J2452Fit& fit) {
-  constexpr double kUnlikely = 0.05;
+  constexpr double kUnlikely = 0.01;
   const auto& lack = fit.statistics.lack_of_fit;
   if (lack.has_value() && lack->p < kUnlikely) {
     fit.warnings.push_back(fmt::format(

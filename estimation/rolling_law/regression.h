@@ -41,7 +41,8 @@ struct RegressionStatistics {
   std::optional<LackOfFit> lack_of_fit;  // where points are repeated and the law leaves freedom
 };
 
-/// Points count as repeats where speed, load and pressure agree within 0.5 %.
+/// Points count as repeats where speed, load and pressure agree within 0.5 %. Copies of a point are not part of the pure
+/// error.
 /// Assumed: 0.5 %, what a machine holds
 RegressionStatistics calc_statistics(const std::vector<FittedPoint>& points, int coefficients);
 
@@ -49,7 +50,7 @@ RegressionStatistics calc_statistics(const std::vector<FittedPoint>& points, int
 std::string explain_no_lack_of_fit(int repeated_points);
 
 /// A warning where a law misses a point by more than 3 % of its force. Assumed: several times what repeated tests
-/// differ by
+/// differ by. It names the point that stands out from the others, which need not be the one that is missed most
 std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>& points);
 
 /// (J^T J)^-1 by a QR decomposition of J with columns of unit length; `leverages` gets the diagonal of the hat matrix.

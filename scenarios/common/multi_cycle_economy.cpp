@@ -190,6 +190,7 @@ EconomyResults evaluate_economy(const RunSpec& spec, const rigs::VehicleLayout& 
   const std::vector<DriveSection> city = list_sections(sections, "city");
   const MultiCycleEconomy economy =
       calc_multi_cycle_economy(list_energies(city), list_energies(list_sections(sections, "highway")), charge);
+  if (const auto doubt = doubt_range(economy.combined.range_m, charge.usable_J)) outcome.warnings.push_back(*doubt);
   results.usable_J = charge.usable_J;
   results.usable_from = vehicle.battery.has_value() ? "battery" : "sections";
   results.recharge_J = charge.recharge_J;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <functional>
 
+#include <fmt/format.h>
+
 #include "sim/core/units.h"
 
 namespace rollrig::scenarios {
@@ -27,6 +29,14 @@ CycleEconomy calc_economy(const std::vector<EnergySection>& cycles, const std::v
   economy.range_m = charge.usable_J / economy.dc_J_per_m;
   if (charge.recharge_J.has_value()) economy.ac_J_per_m = *charge.recharge_J / economy.range_m;
   return economy;
+}
+
+std::optional<std::string> doubt_range(double range_m, double usable_J) {
+  constexpr double kMost_m = 2000e3;
+  constexpr double kJ_per_kWh = 3.6e6;
+  if (range_m <= kMost_m) return std::nullopt;
+  return fmt::format("a range of {:.0f} km, which no electric vehicle has: is usable_energy_kWh = {:g} in Wh?",
+                     range_m / 1e3, usable_J / kJ_per_kWh);
 }
 
 CycleEconomy combine_economy(const CycleEconomy& city, const CycleEconomy& highway) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace rollrig::scenarios {
@@ -42,6 +43,10 @@ std::vector<double> calc_phase_weights(const std::vector<EnergySection>& cycles,
 /// Checked   tests/scenarios/multi_cycle_test.cpp
 CycleEconomy calc_economy(const std::vector<EnergySection>& cycles, const std::vector<double>& weights,
                           const BatteryCharge& charge);
+
+/// A question about a battery whose range no electric vehicle has.
+/// Assumed: 2000 km, above any; a battery in Wh gives a thousand times the range
+std::optional<std::string> doubt_range(double range_m, double usable_J);
 
 /// City and highway together: consumption by 55 and 45 % of the distance, ranges by the same weights.
 /// Source    10 CFR 474, appendix (consumption); ranges: second-hand, as labels of electric vehicles follow from

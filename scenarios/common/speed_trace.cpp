@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -32,6 +33,33 @@ std::optional<std::string> doubt_acceleration(const SpeedTrace& trace) {
   if (std::abs(most_m_s2) <= kMost_m_s2) return std::nullopt;
   return fmt::format("cycle '{}' asks for {:.3g} m/s2 from time_s = {:g} on, which no car does: are its times in s?",
                      trace.name, most_m_s2, at_s);
+}
+
+std::optional<std::string> doubt_hole(const SpeedTrace& trace) {
+  constexpr double kMostFactor = 20.0;
+  constexpr double kRegularShare = 0.9, kSame = 0.01;
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < trace.time_s.size(); ++i) steps_s.push_back(trace.time_s[i] - trace.time_s[i - 1]);
+  std::vector<double> sorted = steps_s;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const double usual_s = sorted[sorted.size() / 2];
+  const auto regular = std::count_if(steps_s.begin(), steps_s.end(),
+                                     [&](double step_s) { return std::abs(step_s / usual_s - 1.0) <= kSame; });
+  const auto longest = std::max_element(steps_s.begin(), steps_s.end());
+  if (static_cast<double>(regular) < kRegularShare * static_cast<double>(steps_s.size())) return std::nullopt;
+  if (*longest < kMostFactor * usual_s) return std::nullopt;
+  return fmt::format(
+      "cycle '{}' has a row every {:g} s, but none for {:g} s after time_s = {:g}: a straight line joins the speeds on "
+      "both sides of the hole",
+      trace.name, usual_s, *longest, trace.time_s[static_cast<std::size_t>(longest - steps_s.begin())]);
+}
+
+std::vector<std::string> doubt_trace(const SpeedTrace& trace) {
+  std::vector<std::string> doubts;
+  for (const auto& doubt : {doubt_acceleration(trace), doubt_hole(trace)}) {
+    if (doubt.has_value()) doubts.push_back(*doubt);
+  }
+  return doubts;
 }
 
 SpeedTrace read_speed_trace(const std::string& name_or_path) {

@@ -22,6 +22,13 @@ double calc_distance_m(const std::vector<double>& time_s, const std::vector<doub
 /// Assumed: 10 m/s2; the cycles of the assets have 3.8 at most
 std::optional<std::string> doubt_acceleration(const SpeedTrace& trace);
 
+/// A question about a hole in a cycle with rows at equal intervals.
+/// Assumed: equal are nine of ten within 1 %; a hole has 20 intervals, so that a standstill of vertices is none
+std::optional<std::string> doubt_hole(const SpeedTrace& trace);
+
+/// All questions about a cycle.
+std::vector<std::string> doubt_trace(const SpeedTrace& trace);
+
 /// Reads a cycle by name or path. Throws InputError.
 SpeedTrace read_speed_trace(const std::string& name_or_path);
 

@@ -91,3 +91,18 @@ TEST_CASE("fit road-load: per unit of mass, bounds, one heading, JSON alone", "[
   CHECK(longest_line(run.out) <= 80);
   CHECK(run_program("fit road-load single.csv --mass 2100 --quiet", folder.path()).out.empty());
 }
+
+TEST_CASE("fit road-load: a target has each coefficient once", "[fast]") {
+  const TemporaryFolder folder;
+  tests::write_file(folder.file("coast.csv"), tests::write_coastdown_csv(tests::simulate_coastdowns({}, 1)));
+  const auto run = [&](const std::string& target) {
+    return run_program("fit road-load coast.csv --mass 2100 --target " + target, folder.path());
+  };
+  CHECK(run("A=130,B=0.5,C=0.03").status == 0);
+  for (const auto& [target, says] : {std::pair("A=130,B=0.5", "the target has C missing"),
+                                     std::pair("A=130,f0=131,B=0.5,C=0.03", "the target has A more than once")}) {
+    const auto wrong = run(target);
+    CHECK(wrong.status == 2);
+    CHECK_THAT(wrong.err, Contains(says));
+  }
+}

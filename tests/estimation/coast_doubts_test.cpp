@@ -150,3 +150,37 @@ TEST_CASE("without a load the force is bounded, and its judgment said to be miss
   }
   CHECK_THROWS_WITH(fit_drum_coastdown(set), Contains("It would be usual with times in min"));
 }
+
+TEST_CASE("a run that is said to be the lifted wheel and slows down otherwise is named", "[fast]") {
+  CoastSet set = make_set();
+  std::vector<std::size_t> wheels;
+  for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    if (set.runs[i].state == CoastState::kLifted && set.runs[i].wheel.has_value()) wheels.push_back(i);
+  }
+  REQUIRE(wheels.size() > 2);
+  CHECK(fit_drum_coastdown(set).doubts.empty());
+  for (double& time_s : set.runs[wheels[1]].wheel->time_s) time_s *= 10.0;
+  const DrumCoastdownFit fit = fit_drum_coastdown(set);
+  REQUIRE(fit.doubts.size() == 1);
+  CHECK(fit.doubts[0].runs == std::vector<std::string>{set.runs[wheels[1]].id});
+  CHECK_THAT(fit.warnings.front(), Contains("the wheel slows down 0.1 times as fast"));
+}
+
+TEST_CASE("a rolling radius that looks like a diameter is doubted", "[fast]") {
+  const auto is_doubted = [](double radius_m, double inertia_kg_m2) {
+    CoastSet set = make_set();
+    set.wheel_mass_ratio.reset();
+    set.drum_inertia_kg_m2 = 850.0;
+    set.wheel_inertia_kg_m2 = inertia_kg_m2;
+    set.wheel_rolling_radius_m = radius_m;
+    for (CoastRun& run : set.runs) run.load_N = run.state == CoastState::kLoaded ? 4000.0 : 0.0;
+    const auto warnings = fit_drum_coastdown(set).warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("Is it the diameter?") != std::string::npos;
+    });
+  };
+  CHECK_FALSE(is_doubted(0.344, 1.1));
+  CHECK_FALSE(is_doubted(0.52, 12.0));  // of a truck
+  CHECK(is_doubted(0.688, 1.1));
+  CHECK(is_doubted(0.5, 0.8));
+}

@@ -89,3 +89,39 @@ TEST_CASE("a start time is a time of day, seconds or nothing", "[fast]") {
     CHECK_THROWS_WITH(read(wrong), Catch::Contains("is not a time of day") && Catch::Contains("line 2"));
   }
 }
+
+TEST_CASE("bins: a column that is nearly a known one is refused, others are named", "[fast]") {
+  const std::string rows = "\n90,80,5,1\n80,70,6,1\n";
+  for (const auto& [name, meant] :
+       {std::pair("ambient_C", "ambient_degC"), std::pair("wind_ms", "wind_m_s"), std::pair(" heading", "heading"),
+        std::pair("ambient_pressure", "ambient_pressure_kPa"), std::pair("Slope_percent", "slope")}) {
+    CHECK_THROWS_WITH(read_text(std::string("v_hi_kmh,v_lo_kmh,dt_s,") + name + rows),
+                      Catch::Contains("is not read") && Catch::Contains(std::string("'") + meant + "'"));
+  }
+  const auto warnings = estimation::list_reading_warnings(read_text("v_hi_kmh,v_lo_kmh,dt_s,barometer" + rows));
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Catch::Contains("no such column: barometer"));
+  CHECK(estimation::list_reading_warnings(read_text("v_hi_kmh,v_lo_kmh,dt_s,file" + rows)).empty());
+}
+
+TEST_CASE("headings that are a code and no degrees are refused", "[fast]") {
+  const auto text = [](const std::string& one, const std::string& other) {
+    return "time_s,speed_km_h,run,heading\n0,100,a," + one + "\n1,90,a," + one + "\n0,100,b," + other +
+           "\n1,90,b," + other + "\n";
+  };
+  CHECK_THROWS_WITH(read_text(text("1", "2")), Catch::Contains("1 and 2 look like a code") && Catch::Contains("line 4"));
+  CHECK_THROWS_WITH(read_text(text("0", "1")), Catch::Contains("look like a code"));
+  CHECK(read_text(text("1", "-1")).data.runs.at(1).heading == -1);
+  CHECK(read_text(text("2", "182")).data.runs.at(1).heading == -1);
+}
+
+TEST_CASE("a mass or drag area that contradicts the manifest of the recording is doubted", "[fast]") {
+  CoastdownFile file;
+  CHECK(estimation::doubt_vehicle(file, 1500.0, 0.7).empty());
+  file.vehicle = estimation::RecordedVehicle{1500.0, 45.0, 0.7};
+  CHECK(estimation::doubt_vehicle(file, 1510.0, std::nullopt).empty());
+  const auto doubts = estimation::doubt_vehicle(file, 1850.0, 7.0);
+  REQUIRE(doubts.size() == 2);
+  CHECK_THAT(doubts[0], Catch::Contains("1850 kg") && Catch::Contains("1500 kg"));
+  CHECK_THAT(doubts[1], Catch::Contains("7 m2") && Catch::Contains("0.7 m2"));
+}

@@ -73,3 +73,21 @@ TEST_CASE("which of two speed columns is in another unit is told by their ratio"
   CHECK(guess_speed_unit(0.58, "a", "b", 0.03).empty());
   CHECK_FALSE(guess_speed_unit(0.58, "a", "b", 0.1).empty());
 }
+
+TEST_CASE("times since the beginning of a run in place of times through bins are refused", "[fast]") {
+  for (const double width_km_h : {2.0, 5.0, 10.0, 20.0}) {
+    tests::CoastdownStudy study;
+    study.pairs = 2;
+    study.load = {70.0, 0.0, 0.035 * 12.96};  // falls far from bin to bin
+    CoastdownFile file;
+    file.path = "coast.csv";
+    file.data = tests::cut_into_bins(tests::simulate_coastdowns(study, 1), width_km_h);
+    CHECK_NOTHROW(require_coasting_decelerations(file));
+    for (CoastdownRun& run : file.data.runs) {
+      double sum_s = 0.0;
+      for (SpeedBin& bin : run.bins) bin.duration_s = sum_s += bin.duration_s;
+    }
+    CHECK_THROWS_WITH(require_coasting_decelerations(file),
+                      Contains("dt_s looks as if it were the time since the beginning of each run"));
+  }
+}

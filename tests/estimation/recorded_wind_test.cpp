@@ -154,3 +154,29 @@ TEST_CASE("anemometers at the vehicle and beside the road that contradict each o
     CHECK(count_of(warnings, says) >= (factor == 1.0 ? 0 : 1));
   }
 }
+
+TEST_CASE("a small slope or wind in the direction of travel is doubted, others of that size are not", "[fast]") {
+  auto study = make_study_with_wind(0.4);
+  study.slope = 0.0007;
+  study.run_force_sd_N = 1.0;
+  study.gust_sd_m_s = 0.1;
+  const auto as_it_is = [](double w, int) { return w; };
+  CoastdownFile sloped = make_recorded_file(study, as_it_is);
+  for (CoastdownRun& run : sloped.data.runs) {
+    for (double& slope : run.conditions.slope) slope *= run.heading;
+  }
+  CoastdownFile surveyed = make_recorded_file(study, as_it_is);  // by another survey
+  for (CoastdownRun& run : surveyed.data.runs) {
+    for (double& slope : run.conditions.slope) slope = 0.0;
+  }
+  const CoastdownFile headwind = make_recorded_file(study, [](double w, int h) { return h * w; });
+  const auto count = [&study](const CoastdownFile& file, const char* text) {
+    int found = 0;
+    for (const Warnings& warnings : list_warnings(file, study.mass_kg)) found += count_of(warnings, text);
+    return found;
+  };
+  CHECK(count(sloped, "the slope in the direction of travel") == 3);  // WLTP does not use it
+  CHECK(count(surveyed, "the headings show a slope") == 0);
+  CHECK(count(headwind, "the headwind of the vehicle") == 4);
+  CHECK(count(make_recorded_file(study, as_it_is), "the headings show") == 0);
+}

@@ -155,3 +155,40 @@ TEST_CASE("a wind that turns is no drift", "[fast]") {
   REQUIRE(checks.drifts.size() == 1);
   CHECK(std::abs(checks.drifts[0].time_change) < 0.005);
 }
+
+TEST_CASE("sessions that do not differ are doubted in one set of a hundred, others always", "[slow]") {
+  constexpr int kSets = 100;
+  int accused = 0, found = 0;
+  for (int seed = 1; seed <= kSets; ++seed) {
+    tests::CoastdownStudy study;
+    study.pairs = 9;
+    study.interval_s = 0.5;
+    study.run_force_sd_N = 3.0;
+    CoastdownData data = tests::simulate_coastdowns(study, static_cast<std::uint64_t>(seed));
+    const auto count = [&data] {
+      estimation::RoadLoadFitOptions options;
+      options.mass_kg = 2100.0;
+      for (const std::string& warning : estimation::fit_road_load(data, options).warnings) {
+        if (warning.find("the sessions differ") != std::string::npos) return 1;
+      }
+      return 0;
+    };
+    for (std::size_t i = 0; i < data.runs.size(); ++i) data.runs[i].session = std::to_string(i / 6);
+    accused += count();
+    if (seed > 10) continue;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (double& time_s : data.runs[i].time_s) time_s *= 1.05;
+    }
+    found += count();
+  }
+  CHECK(accused <= 4);
+  CHECK(found == 10);
+}
+
+TEST_CASE("air that is hotter than any test allows is doubted for its unit", "[fast]") {
+  CoastdownData data = tests::simulate_coastdowns({}, 1);
+  set_conditions(data, 273.15 + 34.0, 0.0, 0.0, 0.0);
+  CHECK_FALSE(estimation::doubt_ambient(data).has_value());
+  set_conditions(data, 273.15 + 48.2, 0.0, 0.0, 0.0);
+  CHECK_THAT(*estimation::doubt_ambient(data), Catch::Contains("Fahrenheit (9.0 degC then)"));
+}

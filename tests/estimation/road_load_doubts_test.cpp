@@ -1,5 +1,6 @@
 #include "estimation/road_load/road_load_doubts.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "estimation/road_load/road_load_fit.h"
@@ -87,4 +88,29 @@ TEST_CASE("masses that do not go together are doubted", "[fast]") {
   const auto doubts = doubt_masses(1850.0, std::nullopt, 4079.0);
   REQUIRE(doubts.size() == 1);
   CHECK_THAT(doubts[0], Contains("2.2 times the mass as tested"));
+}
+
+TEST_CASE("a torque of one wheel, or a diameter for the radius, is doubted", "[fast]") {
+  CHECK_FALSE(doubt_torque_scale(kCar, kCarMass_kg, 0.33).has_value());
+  const models::RoadLoad<double> half{0.5 * kCar.A_N, 0.5 * kCar.B_N_s_per_m, 0.5 * kCar.C_N_s2_per_m2};
+  const auto doubt = doubt_torque_scale(half, kCarMass_kg, 0.33);
+  REQUIRE(doubt.has_value());
+  CHECK_THAT(*doubt, Contains("the sum of all driven wheels"));
+  CHECK(doubt_torque_scale(kCar, kCarMass_kg, 0.66).has_value());
+  CHECK_FALSE(doubt_torque_scale({1200.0, 0.0, 4.0}, 18000.0, 0.5).has_value());  // a truck
+}
+
+TEST_CASE("a given drag area that is far from the one of C is doubted", "[fast]") {
+  const tests::CoastdownStudy study;
+  const CoastdownData data = tests::simulate_coastdowns(study, 1);
+  RoadLoadFitOptions options;
+  options.mass_kg = study.mass_kg;
+  for (const auto& [area_m2, is_doubted] : {std::pair(0.65, false), std::pair(0.5, false), std::pair(6.5, true)}) {
+    options.drag_area_m2 = area_m2;
+    const auto warnings = fit_road_load(data, options).warnings;
+    const bool found = std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("--drag-area is") != std::string::npos;
+    });
+    CHECK(found == is_doubted);
+  }
 }

@@ -289,7 +289,7 @@ TEST_CASE("a point that the law misses is named by its line", "[fast]") {
   points[7].line = 9;
   const estimation::J2452Fit fit = estimation::fit_j2452(points);
   REQUIRE(fit.warnings.size() == 1);
-  CHECK_THAT(fit.warnings[0], Catch::Contains("the law misses line 9 (95 km/h, 4000 N, 200 kPa) by"));
+  CHECK_THAT(fit.warnings[0], Catch::Contains("line 9 (95 km/h, 4000 N, 200 kPa) stands out: it is 30 % off"));
 }
 
 TEST_CASE("where repeated points are copies, the test of lack of fit does not say that none is repeated", "[fast]") {
@@ -363,4 +363,34 @@ TEST_CASE("levels: values within 2 % count as one", "[fast]") {
   CHECK(estimation::count_levels({}) == 0);
   CHECK(estimation::count_levels({100.0, 101.0, 99.5}) == 1);
   CHECK(estimation::count_levels({100.0, 110.0, 101.0, 111.0, 200.0}) == 3);
+}
+
+TEST_CASE("a value that is ten times too large is named, and no other that its fit misses more", "[fast]") {
+  for (const std::size_t wrong : {0U, 8U, 23U}) {
+    std::vector<RollingPoint> points = make_points();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i].line = static_cast<int>(i) + 2;
+      points[i].force_N += 0.1 * std::sin(7.0 * static_cast<double>(i));
+    }
+    points[wrong].force_N *= 10.0;
+    const auto warnings = estimation::fit_j2452(points).warnings;
+    REQUIRE(!warnings.empty());
+    CHECK_THAT(warnings.back(), Catch::Contains("line " + std::to_string(wrong + 2) + " (") &&
+                                    Catch::Contains("stands out") && Catch::Contains("typed right"));
+  }
+}
+
+TEST_CASE("copies of points are no part of the pure error", "[fast]") {
+  std::vector<RollingPoint> points = make_points();
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].force_N += 0.2 * std::sin(7.0 * static_cast<double>(i));
+  std::vector<RollingPoint> repeated = points;
+  for (const std::size_t i : {0U, 7U, 14U}) {
+    repeated.push_back(points[i]);
+    repeated.back().force_N += 0.15;
+  }
+  const auto without = estimation::fit_j2452(repeated).statistics.lack_of_fit;
+  for (const std::size_t i : {3U, 9U, 20U}) repeated.push_back(points[i]);
+  const auto with = estimation::fit_j2452(repeated).statistics.lack_of_fit;
+  REQUIRE((without.has_value() && with.has_value()));
+  CHECK(with->pure_error_freedom == without->pure_error_freedom);
 }

@@ -208,3 +208,63 @@ TEST_CASE("WLTP coastdown: speeds in m/s, which leave few reference speeds, are 
   CHECK_THROWS_WITH(evaluate_wltp_coastdowns(simulated.file, make_wltp_options(1850.0)),
                     Contains("Are the speeds in m/s?"));
 }
+
+TEST_CASE("procedures: rejected runs and runs without a partner have no part in the correction", "[fast]") {
+  ProcedureStudy study = make_quiet_study();
+  study.pairs = 5;
+  tests::SimulatedProcedure simulated = simulate_procedure(study, 1);
+  const auto evaluate = [&study](const CoastdownFile& file, RoadLoadProcedureKind kind) {
+    RoadLoadProcedureOptions options = make_wltp_options(study.mass_kg);
+    options.kind = kind;
+    return kind == RoadLoadProcedureKind::kWltp ? evaluate_wltp_coastdowns(file, options)
+                                                : evaluate_traces(file, options);
+  };
+  CoastdownFile few = simulated.file;
+  few.data.runs.resize(8);
+  CoastdownFile windy = simulated.file;  // the last pair in a wind above the limits, and in hot thin air
+  for (const std::size_t i : {8U, 9U}) {
+    CoastdownConditions& at = windy.data.runs[i].conditions;
+    for (double& wind_m_s : at.wind_m_s) wind_m_s = 9.0;
+    for (double& ambient_K : at.ambient_K) ambient_K += 12.0;
+    for (double& pressure_Pa : at.ambient_pressure_Pa) pressure_Pa -= 4e3;
+  }
+  CoastdownFile unpaired = windy;
+  unpaired.data.runs.pop_back();
+  for (double& wind_m_s : unpaired.data.runs[8].conditions.wind_m_s) wind_m_s = 0.0;
+  for (const auto kind : {RoadLoadProcedureKind::kWltp, RoadLoadProcedureKind::kJ1263, RoadLoadProcedureKind::kJ2263}) {
+    const RoadLoadProcedure wanted = evaluate(few, kind);
+    for (const CoastdownFile& file : {windy, unpaired}) {
+      const RoadLoadProcedure found = evaluate(file, kind);
+      CHECK(*found.correction.ambient_K == Approx(*wanted.correction.ambient_K));
+      CHECK(*found.correction.ambient_pressure_Pa == Approx(*wanted.correction.ambient_pressure_Pa));
+      CHECK(*found.wind_m_s == Approx(*wanted.wind_m_s).margin(1e-12));
+      CHECK(found.road_load(0) == Approx(wanted.road_load(0)).epsilon(1e-6));
+      CHECK_FALSE(has_warning(found, "the air was at"));
+    }
+  }
+}
+
+TEST_CASE("WLTP coastdown: traces at 1 Hz keep the highest reference speeds", "[fast]") {
+  ProcedureStudy study = make_quiet_study();
+  study.interval_s = 1.0;
+  study.mass_kg = 1000.0;  // slows down by 2.6 km/h a second at 130 km/h
+  study.rotating_mass_kg = 30.0;
+  const RoadLoadProcedure procedure = evaluate_wltp(study);
+  CHECK(procedure.reference.speeds.front() == 130);
+  CHECK(procedure.reference.pairs.size() == 3);
+  CHECK(procedure.warnings.empty());
+  for (const double km_h : {20.0, 80.0, 130.0}) {
+    const double v = km_h / 3.6;
+    CHECK(procedure.force_N(v) == Approx(130.0 + 2.16 * v + 0.40176 * v * v).epsilon(0.003));
+  }
+}
+
+TEST_CASE("WLTP coastdown: a trace that is sampled too rarely is named for that", "[fast]") {
+  ProcedureStudy study = make_quiet_study();
+  study.interval_s = 8.0;
+  CHECK_THROWS_WITH(evaluate_wltp(study), Contains("has too few samples near") && Contains("one every 8 s") &&
+                                              Contains("four samples at least"));
+  study.interval_s = 3.0;
+  const RoadLoadProcedure coarse = evaluate_wltp(study);
+  CHECK_FALSE(has_warning(coarse, "no run of the opposite heading"));
+}

@@ -153,3 +153,16 @@ TEST_CASE("an unknown cycle is refused with the nearest name, and a battery that
   CHECK_THROWS_WITH(scenarios::run_scenario(spec, {}),
                     Catch::Contains("usable_energy_kWh") && Catch::Contains("fewer repetitions"));
 }
+
+TEST_CASE("a hole in a cycle of equal intervals is doubted, a cycle of vertices is not", "[fast]") {
+  for (const char* name : {"udds", "hwfet", "us06", "wltc_class3b"}) {
+    INFO(name);
+    SpeedTrace trace = read_speed_trace(name);
+    CHECK(scenarios::doubt_trace(trace).empty());
+    for (auto* values : {&trace.time_s, &trace.speed_m_s}) values->erase(values->begin() + 200, values->begin() + 400);
+    REQUIRE(scenarios::doubt_hole(trace).has_value());
+    CHECK_THAT(*scenarios::doubt_hole(trace), Catch::Contains("none for 201 s after time_s = 199"));
+  }
+  const SpeedTrace vertices{"vertices", {0.0, 11.0, 15.0, 23.0, 25.0, 28.0, 49.0, 300.0}, std::vector<double>(8, 10.0)};
+  CHECK(scenarios::doubt_trace(vertices).empty());
+}

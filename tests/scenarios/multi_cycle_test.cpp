@@ -285,3 +285,8 @@ TEST_CASE("a drive beyond the map of the powertrain is warned of", "[fast]") {
   CHECK(warnings[0].find("129.2 km/h") != std::string::npos);
   CHECK(warnings[1].find("20.0 kW") != std::string::npos);
 }
+
+TEST_CASE("a battery in Wh is doubted by its range", "[fast]") {
+  CHECK_FALSE(scenarios::doubt_range(800e3, 100.0 * kWh).has_value());
+  CHECK_THAT(*scenarios::doubt_range(500e6, 67198.0 * kWh), Catch::Contains("usable_energy_kWh = 67198 in Wh?"));
+}
