@@ -9,6 +9,7 @@
 #include "api/report_files.h"
 #include "api/road_load_options.h"
 #include "estimation/road_load/checked_road_load.h"
+#include "estimation/road_load/coastdown_units.h"
 #include "estimation/road_load/default_road_load.h"
 #include "estimation/road_load/procedure_uncertainty.h"
 #include "estimation/road_load/road_load_procedure.h"
@@ -127,6 +128,7 @@ RoadLoadProcedure evaluate_coastdowns(const std::string& path, RoadLoadProcedure
   std::vector<std::string> texts = estimation::doubt_vehicle(file, given_mass_kg, std::nullopt);
   for (const estimation::RunDoubt& doubt : doubts) texts.push_back(doubt.text);
   procedure.warnings.insert(procedure.warnings.begin(), texts.begin(), texts.end());
+  estimation::put_speed_unit_doubt(file.data, procedure.warnings);
   procedure.doubts = std::move(doubts);
   for (std::string& warning : estimation::list_reading_warnings(file)) procedure.warnings.push_back(std::move(warning));
   return procedure;

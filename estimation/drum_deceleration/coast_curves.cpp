@@ -51,10 +51,10 @@ CoastCurve make_coast_curve(const CoastAnalysis& analysis) {
 
 }  // namespace
 
-std::vector<CoastCurve> make_coast_curves(const std::vector<CoastAnalysis>& analyses, CoastBody body) {
+std::vector<CoastCurve> make_coast_curves(const std::vector<CoastAnalysis>& analyses) {
   std::vector<CoastCurve> curves;
   for (const CoastAnalysis& analysis : analyses) {
-    if (analysis.body == body) curves.push_back(make_coast_curve(analysis));
+    if (analysis.body == CoastBody::kDrum) curves.push_back(make_coast_curve(analysis));
   }
   return curves;
 }

@@ -10,7 +10,7 @@ namespace rollrig::estimation {
 
 constexpr double kCurveBin_m_s = 2.0;  // Assumed
 
-/// Deceleration of the drum (or the wheel) of a run, bin by bin from standstill up; NaN where there are too few rows.
+/// Deceleration of the drum of a run, bin by bin from standstill up; NaN where there are too few rows.
 struct CoastCurve {
   std::size_t run = 0;  // in the set
   std::vector<double> value_m_s2;
@@ -22,9 +22,8 @@ struct CoastCurve {
 
 inline double curve_speed_m_s(std::size_t bin) { return (static_cast<double>(bin) + 0.5) * kCurveBin_m_s; }
 
-/// Slopes of lines through the rows of each bin, of one body; rows in a range that is left out do not count.
-std::vector<CoastCurve> make_coast_curves(const std::vector<CoastAnalysis>& analyses,
-                                          CoastBody body = CoastBody::kDrum);
+/// Slopes of lines through the rows of each bin; rows in a range that is left out do not count.
+std::vector<CoastCurve> make_coast_curves(const std::vector<CoastAnalysis>& analyses);
 
 /// Median of curves, bin by bin.
 CoastCurve calc_median_curve(const std::vector<const CoastCurve*>& curves);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <optional>
 
@@ -10,6 +9,7 @@
 
 #include "estimation/drum_deceleration/coast_curves.h"
 #include "estimation/drum_deceleration/odd_coasts.h"
+#include "estimation/run_checks/robust_statistics.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -103,27 +103,59 @@ void check_loads(const CoastSet& set, CoastDoubts& checked) {
   }
 }
 
+/// Mean deceleration from a speed to a lower one; the coast passes both.
+double calc_mean_deceleration(const Coast& coast, double high_m_s, double low_m_s) {
+  const auto find = [&coast](double speed_m_s) {
+    const auto at = std::find_if(coast.smooth_m_s.begin(), coast.smooth_m_s.end(),
+                                 [speed_m_s](double smooth_m_s) { return smooth_m_s <= speed_m_s; });
+    return static_cast<std::size_t>(at - coast.smooth_m_s.begin());
+  };
+  const std::size_t first = find(high_m_s), last = std::min(find(low_m_s), coast.time_s.size() - 1);
+  return (coast.smooth_m_s[first] - coast.smooth_m_s[last]) / (coast.time_s[last] - coast.time_s[first]);
+}
+
+/// Mean decelerations of the runs of the lifted wheel over the speeds that all of them pass; empty where there are none.
+std::map<std::size_t, double> find_wheel_decelerations(const CoastSet& set, const std::vector<CoastAnalysis>& analyses) {
+  constexpr double kLeastFall_m_s = 2.0;  // Assumed
+  std::vector<const CoastAnalysis*> wheels;
+  double high_m_s = 1e9, low_m_s = 0.0;
+  for (const CoastAnalysis& analysis : analyses) {
+    const bool is_lifted = set.runs[analysis.run].state == CoastState::kLifted;
+    if (analysis.body != CoastBody::kWheel || !is_lifted || analysis.coast.smooth_m_s.size() < 2) continue;
+    wheels.push_back(&analysis);
+    high_m_s = std::min(high_m_s, analysis.coast.smooth_m_s.front());
+    low_m_s = std::max(low_m_s, analysis.coast.smooth_m_s.back());
+  }
+  std::map<std::size_t, double> decelerations;
+  if (high_m_s - low_m_s < kLeastFall_m_s) return decelerations;
+  for (const CoastAnalysis* wheel : wheels) {
+    const double found = calc_mean_deceleration(wheel->coast, high_m_s, low_m_s);
+    if (found > 0.0) decelerations[wheel->run] = found;
+  }
+  return decelerations;
+}
+
 /// Runs of the lifted wheel that slow down otherwise than the others of it.
 void check_lifted_wheels(const CoastSet& set, const std::vector<CoastAnalysis>& analyses, CoastDoubts& checked) {
   constexpr double kMostFactor = 2.0;  // Assumed: friction of cold bearings is less than twice that of warm ones
   constexpr std::size_t kFewest = 3;   // of which one is the odd one
-  const std::vector<CoastCurve> curves = make_coast_curves(analyses, CoastBody::kWheel);
-  const std::vector<const CoastCurve*> wheels = select_state(set, curves, CoastState::kLifted, {});
-  for (const CoastCurve* wheel : wheels) {
-    std::vector<const CoastCurve*> others;
-    std::copy_if(wheels.begin(), wheels.end(), std::back_inserter(others),
-                 [wheel](const CoastCurve* other) { return other != wheel; });
-    const CurveRatio ratio = compare_curves(*wheel, calc_median_curve(others));
-    if (ratio.bins == 0 || std::abs(ratio.log) < std::log(kMostFactor)) continue;
-    const CoastRun& run = set.runs[wheel->run];
-    RunDoubt doubt{DoubtKind::kOdd, {run.id}, "another body", std::expm1(ratio.log), ""};
+  const std::map<std::size_t, double> decelerations = find_wheel_decelerations(set, analyses);
+  if (decelerations.size() < 2) return;
+  std::vector<double> values;
+  for (const auto& [index, deceleration] : decelerations) values.push_back(deceleration);
+  const double usual = values.size() < kFewest ? values.back() : calc_median(values);
+  for (const auto& [index, deceleration] : decelerations) {
+    const double ratio = deceleration / usual;
+    if (ratio < kMostFactor && ratio > 1.0 / kMostFactor) continue;
+    const CoastRun& run = set.runs[index];
+    RunDoubt doubt{DoubtKind::kOdd, {run.id}, "another body", ratio - 1.0, ""};
     doubt.text = fmt::format(
         "{}: the wheel slows down {:.3g} times as fast as in the other {} of the lifted wheel: is its body 'wheel', and "
         "was it free?",
-        run.id, std::exp(ratio.log), others.size() == 1 ? "run" : "runs");
+        run.id, ratio, values.size() < kFewest ? "run" : "runs");
     checked.doubts.push_back(doubt);
-    if (wheels.size() < kFewest) return;  // of two, nothing tells which one
-    if (!run.drum.has_value()) checked.set_aside.insert(wheel->run);
+    if (decelerations.size() < kFewest) return;  // of two, nothing tells which one
+    if (!run.drum.has_value()) checked.set_aside.insert(index);
   }
 }
 

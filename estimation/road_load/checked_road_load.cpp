@@ -11,6 +11,7 @@
 #include "estimation/road_load/bin_labels.h"
 #include "estimation/road_load/coastdown_problem.h"
 #include "estimation/road_load/coastdown_repeats.h"
+#include "estimation/road_load/coastdown_units.h"
 #include "estimation/road_load/recorded_wind.h"
 #include "estimation/road_load/road_force_reference.h"
 #include "estimation/road_load/road_load_doubts.h"
@@ -197,6 +198,7 @@ RoadLoadFit fit_checked_road_load(CoastdownFile& file, const RoadLoadFitOptions&
   std::vector<std::string> texts;
   for (const RunDoubt& doubt : fit.doubts) texts.push_back(doubt.text);
   fit.warnings.insert(fit.warnings.begin(), texts.begin(), texts.end());
+  put_speed_unit_doubt(file.data, fit.warnings);
   return fit;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -102,7 +103,47 @@ void require_single_durations(const CoastdownFile& file) {
                     "the time through each bin alone", ""});
 }
 
+/// Time at which a run falls to a speed; none where it does not pass it.
+std::optional<double> find_fall_time_s(const CoastdownRun& run, double speed_m_s) {
+  const auto top = std::max_element(run.speed_m_s.begin(), run.speed_m_s.end());
+  const auto at = std::find_if(top, run.speed_m_s.end(), [&](double value_m_s) { return value_m_s <= speed_m_s; });
+  if (at == run.speed_m_s.end()) return std::nullopt;
+  return run.time_s[static_cast<std::size_t>(at - run.speed_m_s.begin())];
+}
+
 }  // namespace
+
+std::optional<std::string> doubt_speeds_in_m_s(const CoastdownData& data) {
+  constexpr double kMostTop_km_h = 60.0, kLeastTop_km_h = 22.0;
+  constexpr double kMostRatio = 1.9;
+  std::vector<double> ratios;
+  double top_m_s = 0.0;
+  for (const CoastdownRun& run : data.runs) {
+    if (run.speed_m_s.empty()) continue;
+    const double highest_m_s = *std::max_element(run.speed_m_s.begin(), run.speed_m_s.end());
+    top_m_s = std::max(top_m_s, highest_m_s);
+    const auto fall = [&](double share) { return find_fall_time_s(run, share * highest_m_s); };
+    const auto a = fall(0.95), b = fall(0.75), c = fall(0.45), d = fall(0.25);
+    if (!a.has_value() || !b.has_value() || !c.has_value() || !d.has_value() || *b <= *a) continue;
+    ratios.push_back((*d - *c) / (*b - *a));
+  }
+  const double top_km_h = kKmhPerMs * top_m_s;
+  if (ratios.empty() || top_km_h > kMostTop_km_h || top_km_h < kLeastTop_km_h) return std::nullopt;
+  const double ratio = calc_median(ratios);
+  if (ratio <= kMostRatio) return std::nullopt;
+  return fmt::format(
+      "the speeds end at {:.0f}, and the vehicles slow down {:.1f} times as fast near there as at a third of it, as cars "
+      "do from {:.0f} km/h on: is speed_km_h in m/s?",
+      top_km_h, ratio, kKmhPerMs * top_km_h);
+}
+
+void put_speed_unit_doubt(const CoastdownData& data, std::vector<std::string>& warnings) {
+  const std::optional<std::string> doubt = doubt_speeds_in_m_s(data);
+  const bool is_said = std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("if they were in m/s") != std::string::npos;
+  });
+  if (doubt.has_value() && !is_said) warnings.insert(warnings.begin(), *doubt);
+}
 
 void require_coasting_decelerations(const CoastdownFile& file) {
   require_single_durations(file);

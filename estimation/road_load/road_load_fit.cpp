@@ -12,6 +12,7 @@
 #include "estimation/road_load/road_load_checks.h"
 #include "estimation/road_load/road_load_doubts.h"
 #include "estimation/road_load/road_load_iteration.h"
+#include "estimation/road_load/road_load_report.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -174,6 +175,22 @@ void put_range(const CoastdownProblem& problem, RoadLoadFit& fit) {
   }
 }
 
+/// Bounds that the data alone exclude: what is left of the interval has no width and says nothing.
+void warn_of_contradicting_bounds(RoadLoadFit& fit) {
+  constexpr const char* kNames[] = {"A", "B", "C"};
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const std::array<double, 2>& alone = fit.free_interval_95[at];
+    const double value = fit.values()[at];
+    if (!fit.on_bound[at] || (alone[0] <= value && value <= alone[1])) continue;
+    fit.warnings.push_back(fmt::format(
+        "{} stands on its bound, {:.4g}, but the data alone put it at {:.4g} to {:.4g} {}: the bound contradicts them. "
+        "The interval has no width for that, and no uncertainty of {} is known",
+        kNames[i], road_load_in_file_unit(i, value), road_load_in_file_unit(i, alone[0]),
+        road_load_in_file_unit(i, alone[1]), unit_of_key(road_load_key(i, fit.per_mass)).symbol, kNames[i]));
+  }
+}
+
 /// The drag area that is given against the one of C, which holds all that goes with the square of the speed.
 void doubt_drag_area(const RoadLoadFitOptions& options, RoadLoadFit& fit) {
   constexpr double kMostFactor = 2.0;  // Assumed: the square of the rolling loss is far less than the drag
@@ -232,6 +249,7 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
     fit.warnings.push_back(
         "bounds are on: estimates are pushed off where the data alone would put them, and what "
         "stands on a bound has no standard deviation");
+    warn_of_contradicting_bounds(fit);
   }
 }
 

@@ -415,8 +415,8 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   for (const MeanTorque& mean : means) tested.most_torque_Nm = std::max(tested.most_torque_Nm, mean.torque_Nm);
   finish_procedure(options, procedure);
   put_fitted(procedure);
-  doubt_recorded_conditions(file.runs, "wind_m_s", false, procedure);
   doubt_units(procedure);
+  doubt_recorded_conditions(file.runs, "wind_m_s", false, procedure);
   const models::RoadLoad<double> load{procedure.road_load(0), procedure.road_load(1), procedure.road_load(2)};
   if (const auto doubt = doubt_torque_scale(load, procedure.correction.mass_kg, procedure.wheel_radius_m)) {
     procedure.warnings.push_back(*doubt);

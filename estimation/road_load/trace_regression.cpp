@@ -606,8 +606,8 @@ RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoad
                                   blocks[k].y(row), fitted(row)});
     }
   }
-  doubt_recorded_conditions(winds, on_board ? "air_speed_km_h" : "wind_m_s", !terms.has_slope, procedure);
   doubt_units(procedure);
+  doubt_recorded_conditions(winds, on_board ? "air_speed_km_h" : "wind_m_s", !terms.has_slope, procedure);
   return procedure;
 }
 

@@ -217,8 +217,8 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
     }
   }
   put_fitted(procedure);
-  doubt_recorded_conditions(file.data, "wind_m_s", false, procedure);
   doubt_units(procedure);
+  doubt_recorded_conditions(file.data, "wind_m_s", false, procedure);
   return procedure;
 }
 

@@ -91,3 +91,20 @@ TEST_CASE("times since the beginning of a run in place of times through bins are
                       Contains("dt_s looks as if it were the time since the beginning of each run"));
   }
 }
+
+TEST_CASE("speeds in m/s are doubted by how decelerations fall, slow vehicles are not", "[fast]") {
+  tests::CoastdownStudy study;
+  study.interval_s = 0.5;
+  study.pairs = 2;
+  CoastdownData data = tests::simulate_coastdowns(study, 1);
+  CHECK_FALSE(doubt_speeds_in_m_s(data).has_value());
+  for (CoastdownRun& run : data.runs) {
+    for (double& speed_m_s : run.speed_m_s) speed_m_s /= 3.6;
+  }
+  CHECK_THAT(*doubt_speeds_in_m_s(data), Contains("is speed_km_h in m/s?"));
+  for (const double from_km_h : {30.0, 45.0, 59.0}) {
+    study.from_km_h = from_km_h;
+    study.to_km_h = 5.0;
+    CHECK_FALSE(doubt_speeds_in_m_s(tests::simulate_coastdowns(study, 1)).has_value());
+  }
+}
