@@ -114,8 +114,9 @@ double calc_mean_deceleration(const Coast& coast, double high_m_s, double low_m_
   return (coast.smooth_m_s[first] - coast.smooth_m_s[last]) / (coast.time_s[last] - coast.time_s[first]);
 }
 
-/// Mean decelerations of the runs of the lifted wheel over the speeds that all of them pass; empty where there are none.
-std::map<std::size_t, double> find_wheel_decelerations(const CoastSet& set, const std::vector<CoastAnalysis>& analyses) {
+/// Mean decelerations of the runs of the lifted wheel over the speeds that all of them pass; empty where none are.
+std::map<std::size_t, double> find_wheel_decelerations(const CoastSet& set,
+                                                       const std::vector<CoastAnalysis>& analyses) {
   constexpr double kLeastFall_m_s = 2.0;  // Assumed
   std::vector<const CoastAnalysis*> wheels;
   double high_m_s = 1e9, low_m_s = 0.0;
@@ -150,8 +151,8 @@ void check_lifted_wheels(const CoastSet& set, const std::vector<CoastAnalysis>& 
     const CoastRun& run = set.runs[index];
     RunDoubt doubt{DoubtKind::kOdd, {run.id}, "another body", ratio - 1.0, ""};
     doubt.text = fmt::format(
-        "{}: the wheel slows down {:.3g} times as fast as in the other {} of the lifted wheel: is its body 'wheel', and "
-        "was it free?",
+        "{}: the wheel slows down {:.3g} times as fast as in the other {} of the lifted wheel: is its body 'wheel', "
+        "and was it free?",
         run.id, ratio, values.size() < kFewest ? "run" : "runs");
     checked.doubts.push_back(doubt);
     if (decelerations.size() < kFewest) return;  // of two, nothing tells which one

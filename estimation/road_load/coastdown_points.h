@@ -50,8 +50,8 @@ struct SpeedPassing {
 };
 
 /// Times at which a trace falls below speeds: by a parabola over time through the samples within 2.5 km/h of each.
-/// Where these are fewer than five, the nearest five samples within 10 km/h; four of them at least, else no time. Speeds
-/// that the coasting part of the trace does not pass are left out.
+/// Where these are fewer than five, the nearest five samples within 10 km/h; four of them at least, else no time.
+/// Speeds that the coasting part of the trace does not pass are left out.
 /// Source    Assumed: window and numbers. The third power of time adds 0.01 m/s at the ends of 10 s
 /// Checked   tests/estimation/coastdown_points_test.cpp
 std::vector<SpeedPassing> find_passing_times(const CoastdownRun& run, const std::vector<double>& speeds_m_s);

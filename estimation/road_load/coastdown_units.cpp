@@ -61,8 +61,8 @@ std::string guess_time_unit(double deceleration_m_s2) {
   return "";
 }
 
-/// How far decelerations are from a parabola over speed: root of the mean square, relative to their mean. Infinite where
-/// one of them is not positive.
+/// How far decelerations are from a parabola over speed: root of the mean square, relative to their mean. Infinite
+/// where one of them is not positive.
 double judge_decelerations(const std::vector<SpeedBin>& bins, const std::vector<double>& durations_s) {
   const auto n = static_cast<Eigen::Index>(bins.size());
   Eigen::MatrixXd X(n, 3);
@@ -132,8 +132,8 @@ std::optional<std::string> doubt_speeds_in_m_s(const CoastdownData& data) {
   const double ratio = calc_median(ratios);
   if (ratio <= kMostRatio) return std::nullopt;
   return fmt::format(
-      "the speeds end at {:.0f}, and the vehicles slow down {:.1f} times as fast near there as at a third of it, as cars "
-      "do from {:.0f} km/h on: is speed_km_h in m/s?",
+      "the speeds end at {:.0f}, and the vehicles slow down {:.1f} times as fast near there as at a third of it, as "
+      "cars do from {:.0f} km/h on: is speed_km_h in m/s?",
       top_km_h, ratio, kKmhPerMs * top_km_h);
 }
 

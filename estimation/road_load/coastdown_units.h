@@ -17,7 +17,7 @@ void require_coasting_decelerations(const CoastdownFile& file);
 
 /// A question about speeds that end where those of a car in m/s do, and whose decelerations fall as only those of high
 /// speeds in km/h do. It needs no wind and no mass.
-/// Equation  r = a_1/a_2, mean decelerations from 95 to 75 % and from 45 to 25 % of the highest speed; median of the runs
+/// Equation  r = a_1/a_2, mean decelerations from 95 to 75 % and from 45 to 25 % of the highest speed; median of runs
 /// Assumed: below 60 km/h r is at most 1.6 of road vehicles, and 2 to 4 from 130 km/h on; doubted above 1.9
 /// Checked   tests/estimation/coastdown_units_test.cpp
 std::optional<std::string> doubt_speeds_in_m_s(const CoastdownData& data);

@@ -97,8 +97,9 @@ void report_lost_speeds(const CoastdownRun& run, const ReferenceRun& of_run, con
                         std::vector<std::string>& warnings) {
   if (lost_km_h.empty()) return;
   const double interval_s = (run.time_s.back() - run.time_s.front()) / static_cast<double>(run.time_s.size() - 1);
-  const std::string what = fmt::format("run {} has too few samples near {} km/h for a time (on average one every {:.3g} s)",
-                                       of_run.name, fmt::join(lost_km_h, ", "), interval_s);
+  const std::string what =
+      fmt::format("run {} has too few samples near {} km/h for a time (on average one every {:.3g} s)", of_run.name,
+                  fmt::join(lost_km_h, ", "), interval_s);
   if (of_run.values.empty()) {
     throw InputError({what, "", 0, "time_s", "", "four samples at least within 10 km/h of each limit of a speed bin",
                       ""});

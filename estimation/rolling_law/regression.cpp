@@ -74,8 +74,8 @@ void put_lack_of_fit(const std::vector<FittedPoint>& points, double squares_N2, 
   statistics.lack_of_fit = lack;
 }
 
-/// Each residual over the standard deviation that the other points give it (externally studentized); 0 where that is not
-/// known.
+/// Each residual over the standard deviation that the other points give it (externally studentized); 0 where that is
+/// not known.
 /// Equation  t_i = |e_i|/(s_i sqrt(1 - h_i)),  s_i^2 = (S - e_i^2/(1 - h_i))/(n - p - 1)
 std::vector<double> studentize(const std::vector<FittedPoint>& points) {
   double squares_N2 = 0.0, coefficients = 0.0;

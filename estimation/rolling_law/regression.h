@@ -41,8 +41,8 @@ struct RegressionStatistics {
   std::optional<LackOfFit> lack_of_fit;  // where points are repeated and the law leaves freedom
 };
 
-/// Points count as repeats where speed, load and pressure agree within 0.5 %. Copies of a point are not part of the pure
-/// error.
+/// Points count as repeats where speed, load and pressure agree within 0.5 %. Copies of a point are not part of the
+/// pure error.
 /// Assumed: 0.5 %, what a machine holds
 RegressionStatistics calc_statistics(const std::vector<FittedPoint>& points, int coefficients);
 

@@ -109,7 +109,8 @@ TEST_CASE("headings that are a code and no degrees are refused", "[fast]") {
     return "time_s,speed_km_h,run,heading\n0,100,a," + one + "\n1,90,a," + one + "\n0,100,b," + other +
            "\n1,90,b," + other + "\n";
   };
-  CHECK_THROWS_WITH(read_text(text("1", "2")), Catch::Contains("1 and 2 look like a code") && Catch::Contains("line 4"));
+  CHECK_THROWS_WITH(read_text(text("1", "2")),
+                    Catch::Contains("1 and 2 look like a code") && Catch::Contains("line 4"));
   CHECK_THROWS_WITH(read_text(text("0", "1")), Catch::Contains("look like a code"));
   CHECK(read_text(text("1", "-1")).data.runs.at(1).heading == -1);
   CHECK(read_text(text("2", "182")).data.runs.at(1).heading == -1);
