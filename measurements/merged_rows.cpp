@@ -23,7 +23,7 @@ std::vector<const std::vector<double>*> find_held_columns(const MeasuredRun& run
   return held;
 }
 
-bool is_same(double a, double b) {
+bool holds_value(double a, double b) {
   constexpr double kSame = 1e-7;  // files hold nine digits
   return std::abs(a - b) <= kSame * (1.0 + std::abs(b)) || (std::isnan(a) && std::isnan(b));
 }
@@ -39,7 +39,7 @@ std::vector<Stretch> find_stretches(const MeasuredRun& run, const MachineKind& k
   std::vector<Stretch> stretches;
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
     const bool goes_on = row > 0 && std::all_of(held.begin(), held.end(), [row](const std::vector<double>* column) {
-                           return is_same((*column)[row], (*column)[row - 1]);
+                           return holds_value((*column)[row], (*column)[row - 1]);
                          });
     if (!goes_on) stretches.push_back({row, row});
     stretches.back().last = row + 1;

@@ -137,14 +137,16 @@ sim::Recording<S> run_on(Machine&& machine, const sim::Program& program) {
   return sim::simulate<S>(machine, integrator, program);
 }
 
+constexpr double kStepsBefore = 80.0;  // that the time since a change holds before steps are doubled
+
 /// The longest step so long after the last change of speed or load. Assumed: 10 s, two fifths of the gas's time
-/// constant; from 400 s on a twentieth to a fortieth of that time, since what is left to settle takes as long as it has
-/// taken so far; at most 80 s.
+/// constant; from 800 s on a fortieth to an eightieth of that time, since what is left to settle takes as long as it
+/// has taken so far; at most 80 s.
 double find_longest_step_s(double since_change_s) {
   constexpr double kFirst_s = 10.0;
   constexpr double kMost_s = 80.0;
   double step_s = kFirst_s;
-  while (step_s < kMost_s && since_change_s >= 40.0 * step_s) step_s *= 2.0;
+  while (step_s < kMost_s && since_change_s >= kStepsBefore * step_s) step_s *= 2.0;
   return step_s;
 }
 
@@ -153,7 +155,7 @@ void add_held_parts(const sim::Segment& segment, double since_change_s, std::vec
   double from_s = 0.0;
   while (from_s < segment.duration_s) {
     const double step_s = find_longest_step_s(since_change_s + from_s);
-    const double longer_at_s = 40.0 * step_s - since_change_s;
+    const double longer_at_s = kStepsBefore * step_s - since_change_s;
     const double to_s = longer_at_s > from_s ? std::min(longer_at_s, segment.duration_s) : segment.duration_s;
     parts.push_back(sim::cut_segment(segment, from_s, to_s));
     parts.back().max_step_s = step_s;

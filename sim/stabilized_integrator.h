@@ -82,22 +82,21 @@ class StabilizedIntegrator : public FixedGridIntegrator<S> {
     const double h_s = target_s - before_s_;
     if (h_s <= kLongestClassical_s * (1.0 + 1e-9)) return Base::advance_to(target_s);
     const ChebyshevRule& rule = find_rule(count_stages(h_s));
-    // Two stages before the present one, and the one that is made.
-    Vector before_last = y_before_;
-    Vector before = y_before_;
-    Vector& made = y_;
+    // Of the stages what they add to y, so that little is lost to rounding: of the one before, and of that before it.
+    Vector before(this->total_, zero<S>());
+    Vector before_last = before;
     Vector& rate = rate_;
     rate = rate_before_;
     for (std::size_t j = 0; j < rule.stages.size(); ++j) {
       const ChebyshevRule::Stage& stage = rule.stages[j];
-      if (j > 0) this->evaluate(before_s_ + rule.stages[j - 1].time * h_s, before, rate);
-      const double first = 1.0 - stage.before - stage.before_last;
+      if (j > 0) this->evaluate(before_s_ + rule.stages[j - 1].time * h_s, y_, rate);
       for (std::size_t i = 0; i < this->total_; ++i) {
-        made[i] = first * y_before_[i] + stage.before * before[i] + stage.before_last * before_last[i] +
-                  h_s * (stage.rate * rate[i] + stage.first_rate * rate_before_[i]);
+        const S added = stage.before * before[i] + stage.before_last * before_last[i] +
+                        h_s * (stage.rate * rate[i] + stage.first_rate * rate_before_[i]);
+        before_last[i] = before[i];
+        before[i] = added;
+        y_[i] = y_before_[i] + added;
       }
-      std::swap(before_last, before);
-      before = made;
     }
     this->evaluate(target_s, y_, rate_);
     this->time_s_ = target_s;

@@ -5,6 +5,7 @@ import csv
 import io
 import json
 import math
+import random
 import re
 import shutil
 import unittest
@@ -327,12 +328,14 @@ class Diagnoses(InFolder):
 
     def test_of_a_pair_of_machines(self):
         other = self.copy_set("other")
-        for path in other.glob("*.csv"):  # as another machine would have measured it
+        noise = {"drum_torque_Nm": 0.3, "liner_temperature_degC": 0.1, "cavity_pressure_kPa": 0.1}
+        random_numbers = random.Random(2)
+        for path in sorted(other.glob("*.csv")):  # as another machine would have measured it
             with open(path, encoding="utf-8") as file:
                 rows = list(csv.DictReader(file))
             for row in rows:
-                if row["drum_torque_Nm"]:
-                    row["drum_torque_Nm"] = f"{1.001 * float(row['drum_torque_Nm']):.6f}"
+                for channel in (name for name in noise if row.get(name)):
+                    row[channel] = f"{float(row[channel]) + random_numbers.gauss(0.0, noise[channel]):.6f}"
             with open(path, "w", encoding="utf-8", newline="") as file:
                 writer = csv.DictWriter(file, rows[0])
                 writer.writeheader()

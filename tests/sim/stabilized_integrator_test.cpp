@@ -12,7 +12,7 @@ using tests::LambdaSystem;
 
 namespace {
 
-sim::Recording<double> run(LambdaSystem system, double step_s, double duration_s) {
+sim::Recording<double> run_stabilized(LambdaSystem system, double step_s, double duration_s) {
   sim::StabilizedIntegrator<double> integrator(system);
   sim::Program program;
   program.phases = {tests::plain_phase(duration_s, step_s)};
@@ -35,13 +35,14 @@ double calc_slowly_driven(double t_s) {
 TEST_CASE("halving long steps divides the error by four, in the state and in its integral", "[fast]") {
   constexpr double kDuration_s = 1920.0;
   const auto error = [&](double step_s) {
-    return std::abs(run(slowly_driven(), step_s, kDuration_s).final_state[0] - calc_slowly_driven(kDuration_s));
+    return std::abs(run_stabilized(slowly_driven(), step_s, kDuration_s).final_state[0] -
+                    calc_slowly_driven(kDuration_s));
   };
   // Of y' from above the integral is 600 s (sin - y)' ... : int y = tau (2 - y(T)) + int sin(t/tau).
   const double integral =
       kTau_s * (2.0 - calc_slowly_driven(kDuration_s)) + kTau_s * (1.0 - std::cos(kDuration_s / kTau_s));
   const auto integral_error = [&](double step_s) {
-    return std::abs(run(slowly_driven(), step_s, kDuration_s).final_integrals[0] - integral);
+    return std::abs(run_stabilized(slowly_driven(), step_s, kDuration_s).final_integrals[0] - integral);
   };
   // 60 and 30 s have 6 and 4 stages, and other constants of the error: steps of equally many stages are compared.
   const int stages = sim::StabilizedIntegrator<double>::count_stages(80.0);
@@ -58,7 +59,7 @@ TEST_CASE("steps of up to 10 s are those of the classical rule to the bit", "[fa
   sim::FixedGridIntegrator<double> integrator(system);
   sim::Program program;
   program.phases = {tests::plain_phase(600.0, 10.0)};
-  CHECK(run(slowly_driven(), 10.0, 600.0).final_state[0] ==
+  CHECK(run_stabilized(slowly_driven(), 10.0, 600.0).final_state[0] ==
         sim::simulate<double>(system, integrator, program).final_state[0]);
 }
 
@@ -74,7 +75,7 @@ TEST_CASE("a state that is forty times faster than the step stays where it belon
   };
   for (const double step_s : {20.0, 37.0, 80.0, 160.0}) {
     INFO(step_s << " s");
-    const sim::Recording<double> made = run(make(), step_s, 9600.0);
+    const sim::Recording<double> made = run_stabilized(make(), step_s, 9600.0);
     const double slow = std::exp(-9600.0 / kSlow_s);
     CHECK(made.final_state[0] == Approx(slow).epsilon(0.01));
     CHECK(made.final_state[1] == Approx(slow / (1.0 - kFast_s / kSlow_s)).epsilon(0.02));
@@ -112,7 +113,7 @@ TEST_CASE("the longer the step, the fewer evaluations a second", "[fast]") {
       ++evaluations;
       r[0] = -y[0] / 600.0;
     });
-    run(system, step_s, 4800.0);
+    run_stabilized(system, step_s, 4800.0);
     return evaluations;
   };
   CHECK(count(10.0) == 4 * 480 + 1);
