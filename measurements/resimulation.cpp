@@ -145,8 +145,9 @@ constexpr double kStepsBefore = 80.0;  // that the time since a change holds bef
 double find_longest_step_s(double since_change_s) {
   constexpr double kFirst_s = 10.0;
   constexpr double kMost_s = 80.0;
+  constexpr double kRounding = 1.0 - 1e-9;
   double step_s = kFirst_s;
-  while (step_s < kMost_s && since_change_s >= kStepsBefore * step_s) step_s *= 2.0;
+  while (step_s < kMost_s && since_change_s >= kRounding * kStepsBefore * step_s) step_s *= 2.0;
   return step_s;
 }
 
@@ -168,6 +169,8 @@ void add_held_parts(const sim::Segment& segment, double since_change_s, std::vec
 /// (models/effects/speed_record.cpp).
 void limit_steps(sim::Phase& phase) {
   constexpr double kMostChange_m_s = 0.75;
+  constexpr double kHeld_m_s2 = 1e-9;  // as much as rounding makes of a mean
+  constexpr double kHeldShare = 1e-9;
   const std::size_t speed = rigs::index_of(DrumInput::kSpeed);
   const std::size_t load = rigs::index_of(DrumInput::kLoad);
   phase.max_step_s = 80.0;
@@ -175,9 +178,10 @@ void limit_steps(sim::Phase& phase) {
   double since_change_s = 0.0;
   for (const sim::Segment& segment : phase.segments) {
     const double slope = std::abs(segment.inputs[speed].slope_per_s);
-    const bool is_same_load = !parts.empty() && parts.back().inputs[load].start == segment.inputs[load].start;
-    if (slope > 0.0 || !is_same_load) since_change_s = 0.0;
-    if (slope > 0.0) {
+    const double load_N = segment.inputs[load].start;
+    const double before_N = parts.empty() ? 0.0 : parts.back().inputs[load].start;
+    if (slope > kHeld_m_s2 || std::abs(load_N - before_N) > kHeldShare * load_N) since_change_s = 0.0;
+    if (slope > kHeld_m_s2) {
       parts.push_back(segment);
       parts.back().max_step_s = std::min(find_longest_step_s(0.0), kMostChange_m_s / slope);
       continue;

@@ -227,7 +227,7 @@ double calc_days_since(const ControlChart& chart, double day_s) {
 /// What is not in control in a chart.
 std::string describe_out_of_control(const ControlChart& chart) {
   if (chart.shift.has_value()) {
-    return fmt::format("their mean is by {:+.3f} N/kN another one from {} on", chart.shift->by_N_per_kN,
+    return fmt::format("the mean has shifted by {:+.3f} N/kN from {} on", chart.shift->by_N_per_kN,
                        format_day(chart.shift->from_s));
   }
   if (chart.outside.empty()) {
