@@ -156,7 +156,7 @@ TEST_CASE("a wind that turns is no drift", "[fast]") {
   CHECK(std::abs(checks.drifts[0].time_change) < 0.005);
 }
 
-TEST_CASE("sessions that do not differ are doubted in one set of a hundred, those a tenth apart always", "[slow]") {
+TEST_CASE("sessions that do not differ are doubted in one set of a hundred, those 5 % apart mostly", "[slow]") {
   constexpr int kSets = 100;
   int accused = 0, found = 0;
   for (int seed = 1; seed <= kSets; ++seed) {
@@ -177,12 +177,12 @@ TEST_CASE("sessions that do not differ are doubted in one set of a hundred, thos
     accused += count();
     if (seed > 10) continue;
     for (std::size_t i = 0; i < 6; ++i) {
-      for (double& time_s : data.runs[i].time_s) time_s *= 1.1;
+      for (double& time_s : data.runs[i].time_s) time_s *= 1.05;
     }
     found += count();
   }
   CHECK(accused <= 4);
-  CHECK(found == 10);
+  CHECK(found >= 6);  // of ten: 7
 }
 
 TEST_CASE("air that is hotter than any test allows is doubted for its unit", "[fast]") {
