@@ -26,7 +26,8 @@ namespace detail {
 ///
 /// Samples lie at start + k d, d the program's interval, or at the program's own times. A row holds values
 /// at its time, and for mean channels the mean from half-way to the sample before to half-way to the next,
-/// cut at both ends of the run, or between the program's own bounds. At a knot the row shows the inputs that hold from then on.
+/// cut at both ends of the run, or between the program's own bounds. At a knot the row shows the inputs that hold from
+/// then on.
 template <class S>
 class Sampler {
  public:

@@ -159,8 +159,8 @@ bool is_same_column(const TimedColumn& a, const TimedColumn& b, double most_stil
   return equal == rows || equal / rows > std::max(kMost, 0.5 * (1.0 + by_chance));
 }
 
-/// Whether a channel of one run is a copy of that of the other. Of the two channels of the tire, one that hardly changes
-/// says nothing: both machines may hold it at one value.
+/// Whether a channel of one run is a copy of that of the other. Of the two channels of the tire, one that hardly
+/// changes says nothing: both machines may hold it at one value.
 bool is_same_recording(const measurements::MeasuredRun& a, const measurements::MeasuredRun& b, const Quantity& force) {
   constexpr double kMostStill = 0.9;  // Assumed: of rows that are equal to the one before
   const auto is_same = [&](const Quantity& channel, double most_still) {

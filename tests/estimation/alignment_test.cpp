@@ -109,6 +109,15 @@ bool is_in(const std::vector<std::string>& sentences, const std::string& words) 
                      [&words](const std::string& one) { return one.find(words) != std::string::npos; });
 }
 
+/// Of a rule of the result, by its name.
+bool is_rule_met(const AlignmentResult& result, const std::string& name) {
+  const auto check = std::find_if(result.checks.begin(), result.checks.end(),
+                                  [&name](const AlignmentCheck& one) { return one.name == name; });
+  REQUIRE(check != result.checks.end());
+  CHECK(check->is_rule);
+  return check->is_met;
+}
+
 }  // namespace
 
 TEST_CASE("the line of a published calibration has the certified numbers", "[published]") {
@@ -466,14 +475,7 @@ TEST_CASE("reference values that are rounded as coarsely as a machine may scatte
     }
     return align_file(file);
   };
-  const auto is_met = [](const AlignmentResult& result) {
-    const auto check = std::find_if(result.checks.begin(), result.checks.end(), [](const AlignmentCheck& one) {
-      return one.name == "rounding of the reference values";
-    });
-    REQUIRE(check != result.checks.end());
-    CHECK(check->is_rule);
-    return check->is_met;
-  };
+  const auto is_met = [](const AlignmentResult& result) { return is_rule_met(result, "rounding of the reference values"); };
   CHECK_FALSE(is_met(align_rounded(1.0)));
   CHECK_FALSE(align_rounded(1.0).is_valid);
   CHECK(is_met(align_rounded(0.1)));
@@ -591,14 +593,7 @@ TEST_CASE("more than a year between the two machines is doubted", "[fast]") {
 TEST_CASE("a line that does not describe the tires is not valid", "[fast]") {
   RandomStream random(38, "exchanged");
   AlignmentFile file = make_pair_file(random);
-  const auto describes = [](const AlignmentResult& result) {
-    const auto check = std::find_if(result.checks.begin(), result.checks.end(), [](const AlignmentCheck& one) {
-      return one.name == "the line describes the tires";
-    });
-    REQUIRE(check != result.checks.end());
-    CHECK(check->is_rule);
-    return check->is_met;
-  };
+  const auto describes = [](const AlignmentResult& result) { return is_rule_met(result, "the line describes the tires"); };
   CHECK(describes(align_file(file)));
   std::swap(file.tires[1].reference, file.tires[2].reference);
   std::swap(file.tires[1].reference_N_per_kN, file.tires[2].reference_N_per_kN);
