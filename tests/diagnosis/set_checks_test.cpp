@@ -69,15 +69,17 @@ TEST_CASE("runs of next to no samples are warned of", "[fast]") {
   CHECK_THAT(cut(diagnosis::kFewSamples + 5), !Contains("hardly any data"));  // where the load jumps a row has none
 }
 
-TEST_CASE("no effect of the catalog makes a set look like a mistake", "[slow]") {
-  constexpr int kDraws = 8;
+namespace {
+
+/// Checks sets with so many sizes of each effect of the catalog.
+void check_effects(int draws) {
   int sets = 0;
   int stopped = 0;
   for (const models::Effect* effect : models::all_effects()) {
     if (!models::acts_in(effect->info, tests::kDrum->traits, models::default_tire_model())) continue;
     std::seed_seq seed(effect->info.id.begin(), effect->info.id.end());  // whatever effects there are beside it
     std::mt19937_64 random(seed);
-    for (int i = 0; i < kDraws; ++i) {
+    for (int i = 0; i < draws; ++i) {
       tests::Campaign campaign = tests::make_wide_campaign();
       campaign.effects = {draw_effect(*effect, random)};
       INFO(effect->info.id << " at " << fmt::format("{}", fmt::join(campaign.effects.front().parameters, ", ")));
@@ -91,6 +93,14 @@ TEST_CASE("no effect of the catalog makes a set look like a mistake", "[slow]") 
   }
   // the far tail of a prior may be outside: parasitic losses many times those of the file
   CHECK(stopped <= sets / 100);
+}
+
+}  // namespace
+
+TEST_CASE("no effect of the catalog makes a set look like a mistake", "[slow]") { check_effects(2); }
+
+TEST_CASE("no effect of the catalog makes a set look like a mistake, whatever its size", "[weekly]") {
+  check_effects(12);
 }
 
 TEST_CASE("rows far apart are warned of, with the shift that they may make", "[fast]") {

@@ -156,10 +156,17 @@ TEST_CASE("a wind that turns is no drift", "[fast]") {
   CHECK(std::abs(checks.drifts[0].time_change) < 0.005);
 }
 
-TEST_CASE("sessions that do not differ are doubted in one set of a hundred, those 5 % apart mostly", "[slow]") {
-  constexpr int kSets = 100;
-  int accused = 0, found = 0;
-  for (int seed = 1; seed <= kSets; ++seed) {
+namespace {
+
+/// Of how many sets the fit says that their sessions differ.
+struct Doubted {
+  int same = 0;
+  int apart = 0;  // of the first ten sets, with one session 5 % slower
+};
+
+Doubted count_doubted(int sets) {
+  Doubted doubted;
+  for (int seed = 1; seed <= sets; ++seed) {
     tests::CoastdownStudy study;
     study.pairs = 9;
     study.interval_s = 0.5;
@@ -174,15 +181,26 @@ TEST_CASE("sessions that do not differ are doubted in one set of a hundred, thos
       return 0;
     };
     for (std::size_t i = 0; i < data.runs.size(); ++i) data.runs[i].session = std::to_string(i / 6);
-    accused += count();
+    doubted.same += count();
     if (seed > 10) continue;
     for (std::size_t i = 0; i < 6; ++i) {
       for (double& time_s : data.runs[i].time_s) time_s *= 1.05;
     }
-    found += count();
+    doubted.apart += count();
   }
-  CHECK(accused <= 4);
-  CHECK(found >= 6);  // of ten: 7
+  return doubted;
+}
+
+}  // namespace
+
+TEST_CASE("sessions that do not differ are hardly ever doubted, those 5 % apart mostly", "[slow]") {
+  const Doubted doubted = count_doubted(25);
+  CHECK(doubted.same <= 2);
+  CHECK(doubted.apart >= 6);  // of ten: 7
+}
+
+TEST_CASE("sessions that do not differ are doubted in one set of a hundred", "[weekly]") {
+  CHECK(count_doubted(100).same <= 4);
 }
 
 TEST_CASE("air that is hotter than any test allows is doubted for its unit", "[fast]") {
