@@ -200,7 +200,7 @@ std::string doubt_force_unit(const measurements::MeasurementSet& a, double ratio
       is_torque ? std::vector<OtherForceUnit>{{"lbf ft", kPoundForce_N * kFoot_m}, {"kgf m", kStandardGravity_m_s2}}
                 : std::vector<OtherForceUnit>{{"lbf", kPoundForce_N}, {"kgf", kStandardGravity_m_s2}};
   for (const OtherForceUnit& unit : units) {
-    for (const std::size_t machine : {0, 1}) {
+    for (const std::size_t machine : {0U, 1U}) {
       const double expected = machine == 0 ? unit.SI : 1.0 / unit.SI;
       if (!(std::abs(std::log(ratio / expected)) <= kNear)) continue;
       return fmt::format(
