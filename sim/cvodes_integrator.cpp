@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "sim/core/error.h"
+#include "sim/difference_jacobian.h"
 
 namespace rollrig::sim {
 namespace {
@@ -68,6 +69,8 @@ class CvodesIntegrator::Implementation {
       : system_(system),
         n_(system.state_count()),
         m_(system.integrals().size()),
+        differences_(system.state_tolerances()),
+        integrands_(m_),
         context_(make_context()),
         y_(make_vector(n_, context_.get())),
         q_(make_vector(m_, context_.get())),
@@ -88,6 +91,7 @@ class CvodesIntegrator::Implementation {
   void begin_segment(const StopCondition* stop) {
     collect_statistics();
     stop_ = stop;
+    integrands_s_ = kNever_s;
     require_success(CVodeReInit(memory(), time_s_, y_.get()), "CVodeReInit");
     counted_ = {};  // CVODES counts from zero again
     if (m_ > 0) require_success(CVodeQuadReInit(memory(), q_.get()), "CVodeQuadReInit");
@@ -134,7 +138,7 @@ class CvodesIntegrator::Implementation {
   double* state() { return data(y_); }
   double* integrals() { return data(q_); }
 
-  CvodesStatistics statistics() {
+  IntegratorStatistics statistics() {
     collect_statistics();
     return statistics_;
   }
@@ -151,6 +155,7 @@ class CvodesIntegrator::Implementation {
     matrix_.reset(SUNDenseMatrix(static_cast<sunindextype>(n_), static_cast<sunindextype>(n_), context_.get()));
     solver_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_.get()));
     require_success(CVodeSetLinearSolver(memory(), solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
+    require_success(CVodeSetJacFn(memory(), calc_jacobian), "CVodeSetJacFn");
   }
 
   void set_tolerances(double factor, double relative) {
@@ -180,16 +185,37 @@ class CvodesIntegrator::Implementation {
   static int calc_rates(realtype t, N_Vector y, N_Vector rates, void* user_data) {
     Implementation& me = self(user_data);
     return me.guarded([&] {
-      me.system_.evaluate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates), nullptr);
+      me.system_.evaluate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates), me.integrands_.data());
+      me.integrands_s_ = t;
       return all_finite(N_VGetArrayPointer(rates), me.n_) ? 0 : 1;
     });
   }
 
+  static int calc_jacobian(realtype t, N_Vector y, N_Vector rates, SUNMatrix jacobian, void* user_data, N_Vector,
+                           N_Vector, N_Vector) {
+    Implementation& me = self(user_data);
+    return me.guarded([&] {
+      me.differences_.fill(N_VGetArrayPointer(y), N_VGetArrayPointer(rates), SUNDenseMatrix_Data(jacobian),
+                           [&](const double* changed, double* out) {
+                             me.system_.evaluate(t, changed, out, nullptr);
+                             ++me.statistics_.rate_evaluations;
+                           });
+      return all_finite(SUNDenseMatrix_Data(jacobian), me.n_ * me.n_) ? 0 : 1;
+    });
+  }
+
+  /// Integrands at the end of a step: those of the last iterate of its solution, which is nearer than what CVODES
+  /// tolerates; to find the bodies' motion once more for them would take two fifths of the time.
   static int calc_integrands(realtype t, N_Vector y, N_Vector integrands, void* user_data) {
     Implementation& me = self(user_data);
     return me.guarded([&] {
-      me.system_.evaluate(t, N_VGetArrayPointer(y), nullptr, N_VGetArrayPointer(integrands));
-      return all_finite(N_VGetArrayPointer(integrands), me.m_) ? 0 : 1;
+      double* out = N_VGetArrayPointer(integrands);
+      if (t == me.integrands_s_) {
+        std::copy(me.integrands_.begin(), me.integrands_.end(), out);
+      } else {
+        me.system_.evaluate(t, N_VGetArrayPointer(y), nullptr, out);
+      }
+      return all_finite(out, me.m_) ? 0 : 1;
     });
   }
 
@@ -217,14 +243,11 @@ class CvodesIntegrator::Implementation {
   }
 
   void collect_statistics() {
-    CvodesStatistics now;
+    IntegratorStatistics now;
     CVodeGetNumSteps(memory(), &now.steps);
     CVodeGetNumRhsEvals(memory(), &now.rate_evaluations);
     CVodeGetNumJacEvals(memory(), &now.jacobian_evaluations);
     CVodeGetNumErrTestFails(memory(), &now.error_test_failures);
-    long jacobian_rates = 0;
-    CVodeGetNumLinRhsEvals(memory(), &jacobian_rates);
-    now.rate_evaluations += jacobian_rates;
     statistics_.steps += now.steps - counted_.steps;
     statistics_.rate_evaluations += now.rate_evaluations - counted_.rate_evaluations;
     statistics_.jacobian_evaluations += now.jacobian_evaluations - counted_.jacobian_evaluations;
@@ -237,6 +260,10 @@ class CvodesIntegrator::Implementation {
   OdeSystem<double>& system_;
   std::size_t n_;
   std::size_t m_;
+  DifferenceJacobian differences_;
+  static constexpr double kNever_s = -1e300;
+  std::vector<double> integrands_;  // at integrands_s_, of the last evaluation of rates in the segment
+  double integrands_s_ = kNever_s;
   ContextPtr context_;
   VectorPtr y_, q_, tolerance_, q_tolerance_, scratch_, q_scratch_;
   MatrixPtr matrix_;
@@ -247,8 +274,8 @@ class CvodesIntegrator::Implementation {
   std::optional<double> restarted_at_s_;
   std::exception_ptr pending_;
   std::string message_;
-  CvodesStatistics statistics_;
-  CvodesStatistics counted_;
+  IntegratorStatistics statistics_;
+  IntegratorStatistics counted_;
 };
 
 CvodesIntegrator::CvodesIntegrator(OdeSystem<double>& system, const CvodesOptions& options)
@@ -267,6 +294,6 @@ void CvodesIntegrator::interpolate_state(double time_s, double* state) {
 void CvodesIntegrator::interpolate_integrals(double time_s, double* integrals) {
   implementation_->interpolate_integrals(time_s, integrals);
 }
-CvodesStatistics CvodesIntegrator::statistics() const { return implementation_->statistics(); }
+IntegratorStatistics CvodesIntegrator::statistics() const { return implementation_->statistics(); }
 
 }  // namespace rollrig::sim

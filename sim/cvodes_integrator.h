@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "sim/integrator_statistics.h"
 #include "sim/ode_system.h"
 
 #define ROLLRIG_EXPORT __attribute__((visibility("default")))
@@ -17,19 +18,14 @@ struct CvodesOptions {
   int max_order = 5;
 };
 
-struct CvodesStatistics {
-  long steps = 0;
-  long rate_evaluations = 0;
-  long jacobian_evaluations = 0;
-  long error_test_failures = 0;
-};
-
-/// Variable-step BDF with dense difference Jacobian; the integrals are quadratures under error control;
-/// a stop condition is found as a root.
+/// Variable-step BDF with dense difference Jacobian (sim/difference_jacobian.h); the integrals are quadratures under
+/// error control; a stop condition is found as a root.
 /// Errors    RunFailure with the time and the reason when the integration cannot go on
 /// Checked   tests/sim/cvodes_integrator_test.cpp
 class ROLLRIG_EXPORT CvodesIntegrator : public Integrator<double> {
  public:
+  static constexpr const char* kName = "CVODES BDF";
+
   explicit CvodesIntegrator(OdeSystem<double>& system, const CvodesOptions& options = {});
   ~CvodesIntegrator() override;
   CvodesIntegrator(const CvodesIntegrator&) = delete;
@@ -44,7 +40,7 @@ class ROLLRIG_EXPORT CvodesIntegrator : public Integrator<double> {
   void interpolate_state(double time_s, double* state) override;
   void interpolate_integrals(double time_s, double* integrals) override;
 
-  CvodesStatistics statistics() const;
+  IntegratorStatistics statistics() const;
 
  private:
   class Implementation;

@@ -83,6 +83,8 @@ class Integrator {
 
   /// Starts a run, its state and integrals zero.
   virtual void begin_run(double time_s) = 0;
+  /// Starts a phase, whose commands have changed the system.
+  virtual void begin_phase() {}
   /// Starts a segment from the present state and integrals. Remembers nothing across the knot, unless an integrator's
   /// own comment says so.
   virtual void begin_segment(double max_step_s, const StopCondition* stop) = 0;

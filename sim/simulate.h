@@ -251,6 +251,7 @@ Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Pro
     bool stopped = false;
     log_phase(phase, phase_start_s);
     system.begin_phase(phase, phase_start_s, integrator.state());
+    integrator.begin_phase();
     sampler.begin_phase(phase, out.phases.size(), phase_start_s + phase.duration_s());
     for (const Segment& segment : phase.segments) {
       planned_end_s += segment.duration_s;

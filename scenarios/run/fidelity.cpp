@@ -5,21 +5,47 @@
 #include "rigs/standstill_grid.h"
 #include "sim/cvodes_integrator.h"
 #include "sim/fixed_grid_integrator.h"
+#include "sim/rosenbrock_integrator.h"
 
 namespace rollrig::scenarios {
 
-sim::Recording<double> run_multibody(sim::OdeSystem<double>& rig, const sim::Program& program, const RunSpec& spec,
-                                     const sim::Progress& progress, Json& statistics) {
-  sim::CvodesOptions options;
-  options.tolerance_factor = spec.tolerance_factor;
-  sim::CvodesIntegrator integrator(rig, options);
+namespace {
+
+/// Whether a program is made of short segments, such as the rows of a drive cycle: at each of its knots a multistep
+/// method would begin anew.
+bool has_many_knots(const sim::Program& program) {
+  constexpr double kLongSegment_s = 10.0;  // Assumed: from there on CVODES takes less time
+  std::size_t segments = 0;
+  for (const sim::Phase& phase : program.phases) segments += phase.segments.size();
+  return program.duration_s() < kLongSegment_s * static_cast<double>(segments);
+}
+
+template <class TheIntegrator, class Options>
+sim::Recording<double> integrate(sim::OdeSystem<double>& rig, const sim::Program& program, const Options& options,
+                                 const sim::Progress& progress, Json& statistics) {
+  TheIntegrator integrator(rig, options);
   sim::Recording<double> recording = sim::simulate<double>(rig, integrator, program, progress);
-  const sim::CvodesStatistics counted = integrator.statistics();
-  statistics = {{"steps", counted.steps},
+  const sim::IntegratorStatistics counted = integrator.statistics();
+  statistics = {{"method", TheIntegrator::kName},
+                {"steps", counted.steps},
                 {"rate_evaluations", counted.rate_evaluations},
                 {"jacobian_evaluations", counted.jacobian_evaluations},
                 {"error_test_failures", counted.error_test_failures}};
   return recording;
+}
+
+}  // namespace
+
+sim::Recording<double> run_multibody(sim::OdeSystem<double>& rig, const sim::Program& program, const RunSpec& spec,
+                                     const sim::Progress& progress, Json& statistics) {
+  if (has_many_knots(program)) {
+    sim::RosenbrockOptions options;
+    options.tolerance_factor = spec.tolerance_factor;
+    return integrate<sim::RosenbrockIntegrator>(rig, program, options, progress, statistics);
+  }
+  sim::CvodesOptions options;
+  options.tolerance_factor = spec.tolerance_factor;
+  return integrate<sim::CvodesIntegrator>(rig, program, options, progress, statistics);
 }
 
 sim::Recording<double> run_quasi_static(sim::OdeSystem<double>& rig, const sim::Program& program,

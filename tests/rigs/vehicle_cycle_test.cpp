@@ -52,6 +52,8 @@ TEST_CASE("the city cycle's energies hold at ten times tighter tolerances, and a
     const auto usual = fixture.run_multibody(city());
     fixture.cvodes.tolerance_factor = 0.1;
     const auto tight = fixture.run_multibody(city());
+    const auto one_step = fixture.run_multibody_one_step(city());
+    CHECK_NOTHROW(one_step.audit.require_closed(scenarios::kDriveAuditLimit));
     const auto coarse = fixture.run_quasi_static(city());
     sim::Program halved = city();
     for (sim::Segment& segment : halved.phases[0].segments) segment.max_step_s = 0.5;
@@ -63,6 +65,7 @@ TEST_CASE("the city cycle's energies hold at ten times tighter tolerances, and a
       const bool small = integral == VehicleIntegral::kBrakeLoss;
       const double scale = find_total(tight, small ? VehicleIntegral::kDriveEnergy : integral);
       CHECK(find_total(usual, integral) == Approx(find_total(tight, integral)).margin(1e-5 * scale));
+      CHECK(find_total(one_step, integral) == Approx(find_total(tight, integral)).margin(1e-5 * scale));
       CHECK(find_total(coarse, integral) == Approx(find_total(fine, integral)).margin(1e-4 * scale));
     }
   }

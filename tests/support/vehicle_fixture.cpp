@@ -2,6 +2,7 @@
 
 #include "rigs/trace_effects.h"
 #include "sim/core/assets.h"
+#include "sim/rosenbrock_integrator.h"
 
 namespace rollrig::tests {
 
@@ -37,13 +38,26 @@ rigs::RigStart<double> VehicleFixture::start() const {
   return at;
 }
 
-sim::Recording<double> VehicleFixture::run_multibody(const sim::Program& program) const {
-  std::vector<models::Corner<double>> at = corners();
-  const auto system = rigs::make_multibody_vehicle(at, layout(), start(), false);
-  sim::CvodesIntegrator integrator(*system, cvodes);
+namespace {
+
+template <class TheIntegrator, class Options>
+sim::Recording<double> integrate(const VehicleFixture& fixture, const sim::Program& program, const Options& options) {
+  std::vector<models::Corner<double>> at = fixture.corners();
+  const auto system = rigs::make_multibody_vehicle(at, fixture.layout(), fixture.start(), false);
+  TheIntegrator integrator(*system, options);
   sim::Recording<double> recording = sim::simulate<double>(*system, integrator, program);
   rigs::apply_trace_effects(at.front(), recording);
   return recording;
+}
+
+}  // namespace
+
+sim::Recording<double> VehicleFixture::run_multibody(const sim::Program& program) const {
+  return integrate<sim::CvodesIntegrator>(*this, program, cvodes);
+}
+
+sim::Recording<double> VehicleFixture::run_multibody_one_step(const sim::Program& program) const {
+  return integrate<sim::RosenbrockIntegrator>(*this, program, sim::RosenbrockOptions{});
 }
 
 sim::Recording<double> VehicleFixture::run_quasi_static(const sim::Program& program) const {
