@@ -16,6 +16,7 @@ constexpr double kMostFar = 0.05;                // Assumed: share of the rows o
 constexpr double kLongestGap_s = 5.0;            // Assumed: inputs run linearly over so much, as in an import
 constexpr double kLongestGap_intervals = 2.5;    // Assumed: of a slow file, one row may be missing
 constexpr double kLongestRun_s = 3.0 * 86400.0;  // Assumed: five minutes in milliseconds are longer
+constexpr std::size_t kMostRows = 1000000;       // Assumed: ten rows a second of a day; a diagnosis takes 2 GB
 constexpr const char* kHint = "rollrig import reads logs of other forms, names and units, and writes such files";
 
 double take_middle(std::vector<double> values) {
@@ -27,6 +28,15 @@ double take_middle(std::vector<double> values) {
 InputError too_long(const CsvTable& csv, std::size_t row, double time_s) {
   return InputError({"a run of more than three days", csv.path(), csv.line_of(row), "time_s",
                      fmt::format("{:.10g}", time_s), "seconds, not milliseconds; of a longer test, several runs", ""});
+}
+
+void require_not_too_many(const CsvTable& csv) {
+  if (csv.row_count() <= kMostRows) return;
+  throw InputError({fmt::format("{} rows", csv.row_count()), csv.path(), 0, "", "",
+                    fmt::format("at most {} in a run: a tire warms up over minutes, so that means over 0.1 s or more "
+                                "say as much; rollrig import takes them (interval_s)",
+                                kMostRows),
+                    ""});
 }
 
 /// Single times that lie days away from the others are bad rows; many of them are another unit.
@@ -154,6 +164,7 @@ RunFileRows read_run_columns(const rigs::RunColumns& columns, MeasuredRun& run) 
   std::vector<std::string> known{"time_s"};
   for (const rigs::Column& column : columns.all()) known.push_back(column.quantity.header());
   csv.require_known(known);
+  require_not_too_many(csv);
   file.file_rows = csv.row_count() + count_rows(file.problems);
   run.time_s = csv.increasing_times("time_s", &file.problems);
   if (file.file_rows < 2) {

@@ -170,6 +170,16 @@ TEST_CASE("what is wrong with a file as a whole stays an error", "[fast]") {
   CHECK_THROWS_WITH(read(kDrumHeader, in_ms), Catch::Contains("a run of more than three days"));
 }
 
+TEST_CASE("a run of more rows than memory is meant for is refused, and says how to average them", "[fast]") {
+  std::vector<std::string> rows;
+  rows.reserve(1000001);
+  for (int i = 0; i < 1000001; ++i) rows.push_back(fmt::format("{:.2f},80,5400,25,,", 0.02 * i));
+  const tests::TemporaryFolder folder;
+  const std::string path = write_drum_set(folder, {rows});
+  CHECK_THROWS_WITH(measurements::read_measurement_set(path),
+                    Catch::Contains("1000001 rows") && Catch::Contains("interval_s"));
+}
+
 namespace {
 
 std::vector<std::string> split(const std::string& text, char separator) {
