@@ -16,7 +16,7 @@ constexpr double kMostFar = 0.05;                // Assumed: share of the rows o
 constexpr double kLongestGap_s = 5.0;            // Assumed: inputs run linearly over so much, as in an import
 constexpr double kLongestGap_intervals = 2.5;    // Assumed: of a slow file, one row may be missing
 constexpr double kLongestRun_s = 3.0 * 86400.0;  // Assumed: five minutes in milliseconds are longer
-constexpr std::size_t kMostRows = 1000000;       // Assumed: ten rows a second of a day; a diagnosis takes 2 GB
+constexpr std::size_t kMostRows = 1000000;       // Assumed: a day at ten rows a second, 864,000; a diagnosis takes 2 GB
 constexpr const char* kHint = "rollrig import reads logs of other forms, names and units, and writes such files";
 
 double take_middle(std::vector<double> values) {
@@ -30,11 +30,11 @@ InputError too_long(const CsvTable& csv, std::size_t row, double time_s) {
                      fmt::format("{:.10g}", time_s), "seconds, not milliseconds; of a longer test, several runs", ""});
 }
 
-void require_not_too_many(const CsvTable& csv) {
-  if (csv.row_count() <= kMostRows) return;
-  throw InputError({fmt::format("{} rows", csv.row_count()), csv.path(), 0, "", "",
-                    fmt::format("at most {} in a run: a tire warms up over minutes, so that means over 0.1 s or more "
-                                "say as much; rollrig import takes them (interval_s)",
+void require_not_too_many(const std::string& path, std::size_t rows) {
+  if (rows <= kMostRows) return;
+  throw InputError({fmt::format("{} rows", rows), path, 0, "", "",
+                    fmt::format("at most {} rows in a run. A tire warms up over minutes, so that averages over 0.1 s "
+                                "are enough: rollrig import computes them (interval_s)",
                                 kMostRows),
                     ""});
 }
@@ -164,8 +164,8 @@ RunFileRows read_run_columns(const rigs::RunColumns& columns, MeasuredRun& run) 
   std::vector<std::string> known{"time_s"};
   for (const rigs::Column& column : columns.all()) known.push_back(column.quantity.header());
   csv.require_known(known);
-  require_not_too_many(csv);
   file.file_rows = csv.row_count() + count_rows(file.problems);
+  require_not_too_many(run.file, file.file_rows);
   run.time_s = csv.increasing_times("time_s", &file.problems);
   if (file.file_rows < 2) {
     throw InputError({"a run needs two rows at least", run.file, 2, "", "", "two or more rows", ""});

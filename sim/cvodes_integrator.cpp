@@ -84,6 +84,7 @@ class CvodesIntegrator::Implementation {
 
   void begin_run(double time_s) {
     time_s_ = time_s;
+    restarted_at_s_.reset();
     N_VConst(0.0, y_.get());
     N_VConst(0.0, q_.get());
   }
@@ -185,6 +186,7 @@ class CvodesIntegrator::Implementation {
   static int calc_rates(realtype t, N_Vector y, N_Vector rates, void* user_data) {
     Implementation& me = self(user_data);
     return me.guarded([&] {
+      me.integrands_s_ = kNever_s;
       me.system_.evaluate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates), me.integrands_.data());
       me.integrands_s_ = t;
       return all_finite(N_VGetArrayPointer(rates), me.n_) ? 0 : 1;
@@ -204,8 +206,9 @@ class CvodesIntegrator::Implementation {
     });
   }
 
-  /// Integrands at the end of a step: those of the last iterate of its solution, which is nearer than what CVODES
-  /// tolerates; to find the bodies' motion once more for them would take two fifths of the time.
+  /// Integrands at the end of a step: those of the last evaluation of the rates, one Newton correction before the
+  /// solution. That correction is at most as large as the error that a step may have. To find the bodies' motion once
+  /// more at the solution would take two fifths of the time.
   static int calc_integrands(realtype t, N_Vector y, N_Vector integrands, void* user_data) {
     Implementation& me = self(user_data);
     return me.guarded([&] {
@@ -232,8 +235,7 @@ class CvodesIntegrator::Implementation {
   }
 
   double distance_to_stop(double time_s, const double* state) {
-    const double sign = stop_->direction == StopCondition::Direction::kFalling ? 1.0 : -1.0;
-    return sign * (system_.watch(stop_->watch, time_s, state) - stop_->threshold_SI);
+    return stop_->find_distance(system_.watch(stop_->watch, time_s, state));
   }
 
   void restart() {

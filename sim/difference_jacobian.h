@@ -16,7 +16,7 @@ namespace rollrig::sim {
 /// Equation  J_ij = (f_i(y + d_j e_j) - f_i(y))/d_j, d_j = max(sqrt(eps) |y_j|, 0.1 atol_j)
 /// Symbols   f rates of the states, atol_j the absolute tolerance of a state, eps the rounding of a double
 /// Shapes    n states; the matrix is stored column by column
-/// Checked   tests/sim/rosenbrock_integrator_test.cpp, tests/sim/cvodes_integrator_test.cpp
+/// Checked   tests/sim/difference_jacobian_test.cpp
 class DifferenceJacobian {
  public:
   explicit DifferenceJacobian(std::vector<double> tolerances)
@@ -45,7 +45,7 @@ class DifferenceJacobian {
     if (std::none_of(is_inert_.begin(), is_inert_.end(), [](bool inert) { return inert; })) return true;
     std::copy(y, y + changed_.size(), changed_.begin());
     for (std::size_t j = 0; j < is_inert_.size(); ++j) {
-      if (is_inert_[j]) changed_[j] += find_change(j, y[j]);
+      if (is_inert_[j]) changed_[j] += find_increment(j, y[j]);
     }
     evaluate(changed_.data(), rates_.data());
     return std::equal(rates_.begin(), rates_.end(), rates);
@@ -54,7 +54,7 @@ class DifferenceJacobian {
   template <class Evaluate>
   void fill_column(std::size_t j, const double* y, const double* rates, double* column, Evaluate&& evaluate) {
     std::copy(y, y + changed_.size(), changed_.begin());
-    changed_[j] += find_change(j, y[j]);
+    changed_[j] += find_increment(j, y[j]);
     evaluate(changed_.data(), rates_.data());
     bool is_zero = true;
     for (std::size_t i = 0; i < rates_.size(); ++i) {
@@ -64,7 +64,7 @@ class DifferenceJacobian {
     is_inert_[j] = is_zero;
   }
 
-  double find_change(std::size_t j, double y) const {
+  double find_increment(std::size_t j, double y) const {
     return std::max(std::sqrt(std::numeric_limits<double>::epsilon()) * std::abs(y), 0.1 * tolerances_[j]);
   }
 

@@ -11,6 +11,7 @@
 #include <boost/math/tools/roots.hpp>
 
 #include "sim/core/scalar.h"
+#include "sim/hermite_cubic.h"
 #include "sim/ode_system.h"
 
 namespace rollrig::sim {
@@ -83,14 +84,9 @@ class FixedGridIntegrator : public Integrator<S> {
 
   /// Components from `first` to `last` at a share x of the way through the last step.
   virtual void interpolate_step(double x, std::size_t first, std::size_t last, S* out) const {
-    const double h_s = time_s_ - before_s_;
-    const double to_before = (1.0 + 2.0 * x) * (1.0 - x) * (1.0 - x);
-    const double to_after = x * x * (3.0 - 2.0 * x);
-    const double rate_to_before = x * (1.0 - x) * (1.0 - x) * h_s;
-    const double rate_to_after = x * x * (x - 1.0) * h_s;
+    const HermiteCubic cubic(x, time_s_ - before_s_);
     for (std::size_t i = first; i < last; ++i) {
-      out[i - first] =
-          to_before * y_before_[i] + to_after * y_[i] + rate_to_before * rate_before_[i] + rate_to_after * rate_[i];
+      out[i - first] = cubic.interpolate(y_before_[i], y_[i], rate_before_[i], rate_[i]);
     }
   }
 
@@ -111,11 +107,10 @@ class FixedGridIntegrator : public Integrator<S> {
 
  private:
   bool stop_inside_step() {
-    const double sign = stop_->direction == StopCondition::Direction::kFalling ? 1.0 : -1.0;
     Vector inside(n_);
     const auto distance = [&](double time_s) {
       interpolate_state(time_s, inside.data());
-      return sign * (value_of(system_.watch(stop_->watch, time_s, inside.data())) - stop_->threshold_SI);
+      return stop_->find_distance(value_of(system_.watch(stop_->watch, time_s, inside.data())));
     };
     if (distance(time_s_) > 0.0) return false;
     double event_s = before_s_;

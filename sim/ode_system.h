@@ -83,7 +83,7 @@ class Integrator {
 
   /// Starts a run, its state and integrals zero.
   virtual void begin_run(double time_s) = 0;
-  /// Starts a phase, whose commands have changed the system.
+  /// Starts a phase, whose commands may have changed the system. Called before the first segment of each phase.
   virtual void begin_phase() {}
   /// Starts a segment from the present state and integrals. Remembers nothing across the knot, unless an integrator's
   /// own comment says so.

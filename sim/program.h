@@ -33,6 +33,11 @@ struct StopCondition {
   std::string watch;  // a name that the system knows
   double threshold_SI = 0.0;
   Direction direction = Direction::kFalling;
+
+  /// How far a value is from the threshold: above 0 until the condition is met.
+  double find_distance(double value_SI) const {
+    return direction == Direction::kFalling ? value_SI - threshold_SI : threshold_SI - value_SI;
+  }
 };
 
 /// Something that is done to the system at the start of a phase, at once.

@@ -8,61 +8,26 @@
 #include <limits>
 
 #include "sim/core/error.h"
+#include "sim/hermite_cubic.h"
+#include "sim/rosenbrock_rule.h"
 
 namespace rollrig::sim {
 namespace {
 
-using Matrix4 = Eigen::Matrix4d;
-
-/// Table 4.2 of the source, in the variables u = G k, with which a stage takes no product with A: Hairer and Wanner,
-/// Solving Ordinary Differential Equations II, section IV.7.
-struct Rule {
-  Matrix4 argument;           // of a stage: alpha G^-1
-  Matrix4 coupling;           // of earlier stages: diag(1/gamma) - G^-1
-  Eigen::RowVector4d weight;  // b G^-1
-  Eigen::RowVector4d error;   // (b - bh) G^-1
-  Eigen::Vector4d time;       // row sums of alpha
-  Eigen::Vector4d drift;      // row sums of G
-  double gamma = 0.435866521508459;
-
-  Rule() {
-    Matrix4 alpha = Matrix4::Zero();
-    alpha(1, 0) = 0.87173304301691801;
-    alpha(2, 0) = 0.84457060015369423;
-    alpha(2, 1) = -0.11299064236484185;
-    alpha(3, 2) = 1.0;
-    Matrix4 g = gamma * Matrix4::Identity();
-    g(1, 0) = -0.87173304301691801;
-    g(2, 0) = -0.90338057013044082;
-    g(2, 1) = 0.054180672388095326;
-    g(3, 0) = 0.24212380706095346;
-    g(3, 1) = -1.2232505839045147;
-    g(3, 2) = 0.54526025533510214;
-    const Eigen::RowVector4d b = alpha.row(3) + g.row(3);  // stiffly accurate
-    const Eigen::RowVector4d embedded(0.37810903145819369, -0.096042292212423178, 0.5, 0.21793326075422950);
-    const Matrix4 inverse = g.inverse();
-    argument = alpha * inverse;
-    coupling = Matrix4::Identity() / gamma - inverse;
-    weight = b * inverse;
-    error = (b - embedded) * inverse;
-    time = alpha.rowwise().sum();
-    drift = g.rowwise().sum();
-  }
-};
-
-const Rule& rule() {
-  static const Rule kRule;
+const RosenbrockRule& rule() {
+  static const RosenbrockRule kRule;
   return kRule;
 }
 
-constexpr int kStages = 4;
-// Of a Jacobian. Assumed: a vehicle changes its speed by some 3 m/s meanwhile.
+// A Jacobian is found anew after so many steps or seconds. Assumed: within 5 s a vehicle changes its speed by some 3
+// m/s.
 constexpr int kOldest_steps = 20;
 constexpr double kOldest_s = 5.0;
-constexpr double kFirstStep_s = 1e-3;  // Assumed: of a run; each segment begins with what the one before needed
+constexpr double kFirstStep_s = 1e-3;  // Assumed: first step of a run
 
-/// By how much the next step may differ from one with this error, which goes with the third power of the step.
-double find_change(double error, double least, double most) {
+/// Factor on a step that would bring its error to 1, what is tolerated. The error grows with the third power of the
+/// step.
+double find_step_factor(double error, double least, double most) {
   constexpr double kSafety = 0.9;
   if (!std::isfinite(error)) return least;
   return std::clamp(kSafety / std::cbrt(std::max(error, 1e-12)), least, most);
@@ -80,7 +45,7 @@ RosenbrockIntegrator::RosenbrockIntegrator(OdeSystem<double>& system, const Rose
        {&y_, &y_before_, &y_trial_, &argument_, &error_, &rate_, &rate_before_, &rate_other_, &tolerance_}) {
     v->setZero(size);
   }
-  u_.assign(kStages, Vector::Zero(size));
+  u_.assign(RosenbrockRule::kStages, Vector::Zero(size));
   const auto n = static_cast<Eigen::Index>(n_);
   jacobian_.setZero(n, n);
   drift_.setZero(n);
@@ -95,10 +60,11 @@ RosenbrockIntegrator::RosenbrockIntegrator(OdeSystem<double>& system, const Rose
 void RosenbrockIntegrator::begin_run(double time_s) {
   time_s_ = before_s_ = time_s;
   y_.setZero();
+  jacobian_age_ = kOldest_steps;
   first_h_s_ = kFirstStep_s;
 }
 
-/// A driver who lets go takes his own stiffness with him.
+/// The commands of a phase change the Jacobian: without a driver, the stiffness of his control is gone.
 void RosenbrockIntegrator::begin_phase() { jacobian_age_ = kOldest_steps; }
 
 void RosenbrockIntegrator::begin_segment(double, const StopCondition* stop) {
@@ -117,28 +83,44 @@ bool RosenbrockIntegrator::evaluate(double time_s, const Vector& y, Vector& rate
 bool RosenbrockIntegrator::step(double end_time_s) {
   if (stop_ != nullptr && distance_to_stop(time_s_, y_.data()) <= 0.0) return true;
   const double left_s = end_time_s - time_s_;
+  prepare_step(left_s);
+  double h_s = fit_step(next_h_s_, left_s);
+  int failures = 0;
+  while (!try_step(h_s)) {
+    h_s = fit_step(h_s * find_step_factor(calc_error(), 0.1, 0.7), left_s);
+    ++failures;
+    ++statistics_.error_test_failures;
+    if (failures == 2 && jacobian_age_ > 0) {
+      jacobian_age_ = kOldest_steps;
+      prepare_step(left_s);
+    }
+    if (h_s < 1e-13 * std::max(1.0, std::abs(time_s_))) fail("steps become too short to go on");
+  }
+  const double error = calc_error();
+  if (is_first_) first_h_s_ = h_s * find_step_factor(error, 0.2, failures > 0 ? 1.0 : 5.0);
+  next_h_s_ = h_s * find_step_factor(error, 0.2, 6.0);
+  is_first_ = false;
+  const bool is_met = stop_ != nullptr && distance_to_stop(time_s_ + h_s, y_trial_.data()) <= 0.0;
+  if (is_met) {
+    step_to_stop(h_s);
+  } else {
+    advance(h_s);
+    if (h_s == left_s) time_s_ = end_time_s;
+  }
+  ++jacobian_age_;
+  ++statistics_.steps;
+  return is_met;
+}
+
+/// Rates, Jacobian and drift at y_.
+void RosenbrockIntegrator::prepare_step(double left_s) {
   require_rates();
+  if (jacobian_age_ >= kOldest_steps || time_s_ - jacobian_s_ > kOldest_s) find_jacobian();
   if (is_first_) {
     find_drift(left_s);
   } else {
     follow_drift();
   }
-  double h_s = fit_step(next_h_s_, left_s);
-  int failures = 0;
-  while (!try_step(h_s)) {
-    h_s = fit_step(h_s * find_change(calc_error(), 0.1, 0.7), left_s);
-    ++failures;
-    ++statistics_.error_test_failures;
-    if (failures > 1 && jacobian_age_ > 0) jacobian_age_ = kOldest_steps;
-    if (h_s < 1e-13 * std::max(1.0, std::abs(time_s_))) fail("steps become too short to go on");
-  }
-  const double error = calc_error();
-  if (is_first_) first_h_s_ = h_s * find_change(error, 0.2, failures > 0 ? 1.0 : 5.0);
-  next_h_s_ = h_s * find_change(error, 0.2, 6.0);
-  is_first_ = false;
-  advance(h_s);
-  if (h_s == left_s) time_s_ = end_time_s;
-  return stop_ != nullptr && stop_inside_step();
 }
 
 void RosenbrockIntegrator::fail(const char* why) const {
@@ -146,7 +128,7 @@ void RosenbrockIntegrator::fail(const char* why) const {
       fmt::format("integration failed at t = {} s: {}; the last good state is that of this time", time_s_, why));
 }
 
-/// The step, or as much as is left; two equal ones instead of one and a short one.
+/// The step, or as much as is left. Where one step and a short rest would remain, two equal steps.
 double RosenbrockIntegrator::fit_step(double h_s, double left_s) {
   if (h_s >= left_s) return left_s;
   return std::min(h_s, 0.5 * left_s);
@@ -154,17 +136,16 @@ double RosenbrockIntegrator::fit_step(double h_s, double left_s) {
 
 /// A step from y_ to y_trial_; false where its error is too large.
 bool RosenbrockIntegrator::try_step(double h_s) {
-  if (jacobian_age_ >= kOldest_steps || time_s_ - jacobian_s_ > kOldest_s) find_jacobian();
-  const Rule& r = rule();
+  const RosenbrockRule& r = rule();
   if (factored_h_s_ != h_s) {
     Eigen::MatrixXd matrix = -jacobian_;
-    matrix.diagonal().array() += 1.0 / (h_s * r.gamma);
+    matrix.diagonal().array() += 1.0 / (h_s * RosenbrockRule::kGamma);
     factors_.compute(matrix);
     factored_h_s_ = h_s;
   }
   y_trial_ = y_;
   error_.setZero();
-  for (int i = 0; i < kStages; ++i) {
+  for (int i = 0; i < RosenbrockRule::kStages; ++i) {
     if (!find_stage(i, h_s)) {
       error_.setConstant(std::numeric_limits<double>::infinity());
       return false;
@@ -177,7 +158,7 @@ bool RosenbrockIntegrator::try_step(double h_s) {
 
 /// u_i of a step; false where rates are not finite.
 bool RosenbrockIntegrator::find_stage(int i, double h_s) {
-  const Rule& r = rule();
+  const RosenbrockRule& r = rule();
   const auto n = static_cast<Eigen::Index>(n_);
   Vector& u = stage(i);
   if (i == 0) {
@@ -190,7 +171,7 @@ bool RosenbrockIntegrator::find_stage(int i, double h_s) {
   }
   u.head(n) += h_s * r.drift[i] * drift_;
   u.head(n) = factors_.solve(u.head(n)).eval();
-  u.tail(u.size() - n) *= h_s * r.gamma;
+  u.tail(u.size() - n) *= h_s * RosenbrockRule::kGamma;
   return true;
 }
 
@@ -214,19 +195,20 @@ void RosenbrockIntegrator::advance(double h_s) {
   before_s_ = time_s_;
   time_s_ += h_s;
   has_rate_ = false;
-  ++jacobian_age_;
-  ++statistics_.steps;
 }
 
-/// How the rates change with time alone.
+/// The drift at the start of a segment: df/dt by a difference.
 void RosenbrockIntegrator::find_drift(double left_s) {
   const double by_s = std::min(0.1 * left_s, 0.01);
   const auto n = static_cast<Eigen::Index>(n_);
-  evaluate(time_s_ + by_s, y_, rate_other_);
-  drift_ = (rate_other_.head(n) - rate_.head(n)) / by_s;
+  if (evaluate(time_s_ + by_s, y_, rate_other_)) {
+    drift_ = (rate_other_.head(n) - rate_.head(n)) / by_s;
+  } else {
+    drift_.setZero();
+  }
 }
 
-/// The same after a step: what the Jacobian does not explain of the change of the rates.
+/// The drift after a step: what the Jacobian leaves unexplained of the change of the rates, without another evaluation.
 void RosenbrockIntegrator::follow_drift() {
   const auto n = static_cast<Eigen::Index>(n_);
   drift_ = (rate_.head(n) - rate_before_.head(n) - jacobian_ * (y_ - y_before_).head(n)) / (time_s_ - before_s_);
@@ -234,13 +216,14 @@ void RosenbrockIntegrator::follow_drift() {
 
 void RosenbrockIntegrator::find_jacobian() {
   ++statistics_.jacobian_evaluations;
-  jacobian_age_ = 0;
-  jacobian_s_ = time_s_;
   factored_h_s_ = 0.0;
   differences_.fill(y_.data(), rate_.data(), jacobian_.data(), [this](const double* y, double* rates) {
     system_.evaluate(time_s_, y, rates, nullptr);
     ++statistics_.rate_evaluations;
   });
+  if (!jacobian_.allFinite()) fail("rates near the state are not finite");
+  jacobian_age_ = 0;
+  jacobian_s_ = time_s_;
 }
 
 /// Rates at y_, under the inputs of the segment: at a knot there are those before it, and those after it.
@@ -256,13 +239,10 @@ void RosenbrockIntegrator::interpolate(double time_s, std::size_t first, std::si
     return;
   }
   require_rates();
-  const double h_s = time_s_ - before_s_;
-  const double x = (time_s - before_s_) / h_s;
-  const double x2 = x * x, x3 = x2 * x;
+  const HermiteCubic cubic((time_s - before_s_) / (time_s_ - before_s_), time_s_ - before_s_);
   for (std::size_t k = 0; k < count; ++k) {
     const auto i = static_cast<Eigen::Index>(first + k);
-    out[k] = (2.0 * x3 - 3.0 * x2 + 1.0) * y_before_[i] + (3.0 * x2 - 2.0 * x3) * y_[i] +
-             h_s * ((x3 - 2.0 * x2 + x) * rate_before_[i] + (x3 - x2) * rate_[i]);
+    out[k] = cubic.interpolate(y_before_[i], y_[i], rate_before_[i], rate_[i]);
   }
 }
 
@@ -273,32 +253,23 @@ void RosenbrockIntegrator::interpolate_integrals(double time_s, double* integral
 }
 
 double RosenbrockIntegrator::distance_to_stop(double time_s, const double* state) {
-  const double sign = stop_->direction == StopCondition::Direction::kFalling ? 1.0 : -1.0;
-  return sign * (system_.watch(stop_->watch, time_s, state) - stop_->threshold_SI);
+  return stop_->find_distance(system_.watch(stop_->watch, time_s, state));
 }
 
-/// Whether the condition is met within the last step. Then the step is taken anew, as long as it takes to meet it:
-/// between the ends of a long step, energies would close less well than at its end.
-bool RosenbrockIntegrator::stop_inside_step() {
-  const double after = distance_to_stop(time_s_, y_.data());
-  if (after > 0.0) return false;
-  const double end_s = time_s_;
-  std::swap(y_, y_before_);
-  std::swap(rate_, rate_before_);
-  time_s_ = before_s_;
-  has_rate_ = true;
-  const auto distance = [&](double time_s) {
-    if (!try_step(time_s - before_s_) && !y_trial_.allFinite()) fail("rates are not finite");
-    return distance_to_stop(time_s, y_trial_.data());
+/// After a step of h_s would have gone beyond the stop condition: the step at whose end it is just met. To interpolate
+/// inside a long step would close energies less well.
+void RosenbrockIntegrator::step_to_stop(double h_s) {
+  const auto distance = [&](double by_s) {
+    if (!try_step(by_s) && !std::isfinite(calc_error())) fail("rates are not finite");
+    return distance_to_stop(time_s_ + by_s, y_trial_.data());
   };
   std::uintmax_t most = 100;
   const boost::math::tools::eps_tolerance<double> exact(45);
-  const auto bracket = boost::math::tools::toms748_solve(distance, before_s_, end_s,
-                                                         distance_to_stop(before_s_, y_.data()), after, exact, most);
+  const auto bracket = boost::math::tools::toms748_solve(distance, 0.0, h_s, distance_to_stop(time_s_, y_.data()),
+                                                         distance_to_stop(time_s_ + h_s, y_trial_.data()), exact, most);
+  if (most >= 100) fail("the time of the stop condition was not found");
   distance(bracket.second);
-  advance(bracket.second - before_s_);
-  time_s_ = bracket.second;
-  return true;
+  advance(bracket.second);
 }
 
 }  // namespace rollrig::sim

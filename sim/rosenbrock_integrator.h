@@ -1,5 +1,5 @@
 #pragma once
-/// Steps that lose nothing where a program has a knot: for programs that follow a recorded speed from row to row.
+/// One-step integration for programs of many short segments: it keeps its order and its Jacobian over a knot.
 
 #include <Eigen/Dense>
 #include <vector>
@@ -14,21 +14,23 @@ struct RosenbrockOptions {
   double relative_tolerance = 1e-6;
   /// Multiplies the relative and all absolute tolerances.
   double tolerance_factor = 1.0;
-  /// Multiplies the absolute tolerances. What is tested is the error of the embedded solution of order 2. Assumed: the
-  /// solution of order 3 is off by a twentieth of it; so energies close as well as with CVODES.
+  /// Multiplies the absolute tolerances, because the error test judges the embedded solution of order 2. Assumed: the
+  /// solution of order 3, which is kept, has a twentieth of that error. Energies then close as well as with CVODES.
   double absolute_factor = 20.0;
 };
 
-/// Rosenbrock-W method ROS34PW2 with variable steps: four stages, order 3, L-stable. Integrals take part with an
+/// Rosenbrock-W method ROS34PW2 (sim/rosenbrock_rule.h) with variable steps and four stages. Integrals take part by an
 /// explicit rule of the same weights, and are under error control too.
 ///
-/// Equation  k_i = f(t + a_i h, y + sum_{j<i} a_ij k_j) h + h A sum_{j<=i} g_ij k_j, i = 1 .. 4;
-///           y_{n+1} = y_n + sum b_i k_i; error sum (b_i - bh_i) k_i; a_i = sum_j a_ij
-/// Symbols   f rates [SI units/s], h step [s], A an approximation of df/dy [1/s]: zero for integrals, and else a
-///           difference Jacobian (sim/difference_jacobian.h) that is kept over many steps and knots
-/// Accuracy  order 3 for any A, order 4 in state and integrals between the ends of a step (Hermite's cubic)
-/// Errors    RunFailure with the time where steps become too short to go on
-/// Source    J. Rang and L. Angermann, BIT 45 (2005) 761, table 4.2
+/// Equation  k_i = h f(t + a_i h, y + sum_{j<i} a_ij k_j) + h A sum_{j<=i} g_ij k_j + h^2 g_i d, i = 1 .. 4;
+///           y_{n+1} = y_n + sum b_i k_i; error sum (b_i - bl_i) k_i; a_i = sum_j a_ij, g_i = sum_j g_ij
+/// Symbols   f rates [SI units/s], h step [s]; A an approximation of df/dy [1/s]: zero for integrals, and else a
+///           difference Jacobian (sim/difference_jacobian.h) that is kept over many steps and knots; d an approximation
+///           of df/dt: by a difference in the first step of a segment, then what A does not explain of the change of f
+/// Validity  stiff systems. With A = df/dy the method is L-stable; a stiff rate may grow by 0.6 of itself while A is
+///           kept, beyond which only the error test limits the step
+/// Accuracy  order 3 for any A and d, at the ends of steps and between them (sim/hermite_cubic.h)
+/// Errors    RunFailure with the time where rates are not finite or steps become too short to go on
 /// Checked   tests/sim/rosenbrock_integrator_test.cpp
 class RosenbrockIntegrator : public Integrator<double> {
  public:
@@ -54,9 +56,10 @@ class RosenbrockIntegrator : public Integrator<double> {
   Vector& stage(int i) { return u_[static_cast<std::size_t>(i)]; }
   bool evaluate(double time_s, const Vector& y, Vector& rates);
   void require_rates();
+  void prepare_step(double left_s);
+  void find_jacobian();
   void find_drift(double left_s);
   void follow_drift();
-  void find_jacobian();
   static double fit_step(double h_s, double left_s);
   bool try_step(double h_s);
   bool find_stage(int i, double h_s);
@@ -64,7 +67,7 @@ class RosenbrockIntegrator : public Integrator<double> {
   void advance(double h_s);
   void interpolate(double time_s, std::size_t first, std::size_t count, double* out);
   double distance_to_stop(double time_s, const double* state);
-  bool stop_inside_step();
+  void step_to_stop(double h_s);
   [[noreturn]] void fail(const char* why) const;
 
   OdeSystem<double>& system_;

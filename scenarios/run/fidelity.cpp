@@ -11,13 +11,19 @@ namespace rollrig::scenarios {
 
 namespace {
 
-/// Whether a program is made of short segments, such as the rows of a drive cycle: at each of its knots a multistep
-/// method would begin anew.
+/// Whether a program is made of many short segments, such as the rows of a drive cycle or of a log: at each of its
+/// knots a multistep method would begin anew.
 bool has_many_knots(const sim::Program& program) {
-  constexpr double kLongSegment_s = 10.0;  // Assumed: from there on CVODES takes less time
-  std::size_t segments = 0;
-  for (const sim::Phase& phase : program.phases) segments += phase.segments.size();
-  return program.duration_s() < kLongSegment_s * static_cast<double>(segments);
+  constexpr double kLongSegment_s = 10.0;   // Assumed: from there on CVODES takes less time
+  constexpr std::size_t kFewSegments = 30;  // Assumed: below, there is little to save
+  std::size_t segments = 0, short_ones = 0;
+  for (const sim::Phase& phase : program.phases) {
+    for (const sim::Segment& segment : phase.segments) {
+      ++segments;
+      short_ones += segment.duration_s < kLongSegment_s ? 1 : 0;
+    }
+  }
+  return segments >= kFewSegments && 2 * short_ones > segments;
 }
 
 template <class TheIntegrator, class Options>

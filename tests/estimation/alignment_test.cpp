@@ -109,7 +109,7 @@ bool is_in(const std::vector<std::string>& sentences, const std::string& words) 
                      [&words](const std::string& one) { return one.find(words) != std::string::npos; });
 }
 
-/// Of a rule of the result, by its name.
+/// Whether the rule of this name is met. Requires that there is one.
 bool is_rule_met(const AlignmentResult& result, const std::string& name) {
   const auto check = std::find_if(result.checks.begin(), result.checks.end(),
                                   [&name](const AlignmentCheck& one) { return one.name == name; });
@@ -338,8 +338,14 @@ TEST_CASE("innocent sets are not accused, fine or coarse", "[fast]") {
   struct Case {
     double step_N_per_kN, sigma_m;
   };
-  for (const Case& each : {Case{0.001, 0.03}, {0.01, 0.03}, {0.01, 0.015}, {0.05, 0.02}, {0.05, 0.04}, {0.1, 0.03},
-                           {0.1, 0.015}, {0.1, 0.04}}) {
+  for (const Case& each : {Case{0.001, 0.03},
+                           {0.01, 0.03},
+                           {0.01, 0.015},
+                           {0.05, 0.02},
+                           {0.05, 0.04},
+                           {0.1, 0.03},
+                           {0.1, 0.015},
+                           {0.1, 0.04}}) {
     RandomStream random(31, "innocent");
     int accused = 0, residual = 0;
     constexpr int kTimes = 400;
@@ -475,7 +481,9 @@ TEST_CASE("reference values that are rounded as coarsely as a machine may scatte
     }
     return align_file(file);
   };
-  const auto is_met = [](const AlignmentResult& result) { return is_rule_met(result, "rounding of the reference values"); };
+  const auto is_met = [](const AlignmentResult& result) {
+    return is_rule_met(result, "rounding of the reference values");
+  };
   CHECK_FALSE(is_met(align_rounded(1.0)));
   CHECK_FALSE(align_rounded(1.0).is_valid);
   CHECK(is_met(align_rounded(0.1)));
@@ -566,14 +574,15 @@ TEST_CASE("repeats without a new test are doubted by their times, days alone are
   const auto set_times = [&file](double round_s, double tire_s) {
     for (std::size_t i = 0; i < file.tires.size(); ++i) {
       for (std::size_t k = 0; k < 4; ++k) {
-        file.tires[i].candidate.all[k].time_s = 86400.0 * 20000.0 + 36000.0 + round_s * static_cast<double>(k) +
-                                                tire_s * static_cast<double>(i);
+        file.tires[i].candidate.all[k].time_s =
+            86400.0 * 20000.0 + 36000.0 + round_s * static_cast<double>(k) + tire_s * static_cast<double>(i);
       }
     }
   };
   set_times(60.0, 0.0);
-  CHECK(is_in(list_time_doubts(file), "15 measurements on machine 'drum_B' follow one of the same tire by less than "
-                                      "180 min of soak and 30 min of warm-up; the least is 1 min"));
+  CHECK(is_in(list_time_doubts(file),
+              "15 measurements on machine 'drum_B' follow one of the same tire by less than "
+              "180 min of soak and 30 min of warm-up; the least is 1 min"));
   CHECK(is_in(list_time_doubts(file), "follow one of another tire by less than the 30 min of a warm-up"));
   set_times(5.0 * 3600.0, 3600.0);  // five tires in turn, an hour each
   CHECK(list_time_doubts(file).empty());
@@ -593,7 +602,9 @@ TEST_CASE("more than a year between the two machines is doubted", "[fast]") {
 TEST_CASE("a line that does not describe the tires is not valid", "[fast]") {
   RandomStream random(38, "exchanged");
   AlignmentFile file = make_pair_file(random);
-  const auto describes = [](const AlignmentResult& result) { return is_rule_met(result, "the line describes the tires"); };
+  const auto describes = [](const AlignmentResult& result) {
+    return is_rule_met(result, "the line describes the tires");
+  };
   CHECK(describes(align_file(file)));
   std::swap(file.tires[1].reference, file.tires[2].reference);
   std::swap(file.tires[1].reference_N_per_kN, file.tires[2].reference_N_per_kN);

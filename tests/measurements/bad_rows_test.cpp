@@ -170,7 +170,7 @@ TEST_CASE("what is wrong with a file as a whole stays an error", "[fast]") {
   CHECK_THROWS_WITH(read(kDrumHeader, in_ms), Catch::Contains("a run of more than three days"));
 }
 
-TEST_CASE("a run of more rows than memory is meant for is refused, and says how to average them", "[fast]") {
+TEST_CASE("a run of more rows than memory is meant for is refused, and says how to average them", "[slow]") {
   std::vector<std::string> rows;
   rows.reserve(1000001);
   for (int i = 0; i < 1000001; ++i) rows.push_back(fmt::format("{:.2f},80,5400,25,,", 0.02 * i));

@@ -87,7 +87,7 @@ TEST_CASE("the work of a driver who takes over at another speed is in the audit"
   CHECK_NOTHROW(outcome.recording.audit.require_closed(1e-9));
 }
 
-TEST_CASE("a drive cycle is followed by steps that mind no knots, a coastdown by a multistep method", "[fast]") {
+TEST_CASE("a drive cycle is integrated by a one-step method, a coastdown by a multistep method", "[fast]") {
   const auto cycle = run_on("dyno_1m2", "drive_cycle", {"cycle=us06", "wheels=1"}, "multibody");
   CHECK(cycle.statistics["method"] == "ROS34PW2");
   CHECK(cycle.statistics["jacobian_evaluations"] < cycle.statistics["steps"].get<int>() / 5);

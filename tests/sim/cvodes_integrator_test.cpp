@@ -44,6 +44,20 @@ TEST_CASE("a stiff system takes few steps and keeps its tolerance against a run 
   CHECK(integrator.statistics().steps < 600);         // an explicit method needs over 3000
 }
 
+TEST_CASE("an integral meets its closed form, and that of a stiff state stays within a few tolerances", "[fast]") {
+  LambdaSystem decay(
+      {1.0}, [](double, const double* y, double* r) { r[0] = -y[0]; }, 1e-8);
+  sim::CvodesIntegrator integrator(decay);
+  CHECK(sim::simulate<double>(decay, integrator, one_phase(5.0)).final_integrals[0] ==
+        Approx(1.0 - std::exp(-5.0)).margin(1e-6));
+  // y = (k^2 cos t + k sin t)/(k^2 + 1) but for what is lost in the first milliseconds: 1/k of it
+  LambdaSystem stiff = stiff_pair();
+  sim::CvodesIntegrator other(stiff);
+  const double k = 1000.0;
+  const double closed = (k * k * std::sin(10.0) + k * (1.0 - std::cos(10.0))) / (k * k + 1.0) - k / (k * k + 1.0);
+  CHECK(sim::simulate<double>(stiff, other, one_phase(10.0)).final_integrals[0] == Approx(closed).margin(1e-6));
+}
+
 TEST_CASE("an event time is exact to a millisecond", "[fast]") {
   // Free fall from 100 m reaches the ground at sqrt(2 h/g).
   LambdaSystem system(

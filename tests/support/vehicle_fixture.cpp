@@ -56,7 +56,7 @@ sim::Recording<double> VehicleFixture::run_multibody(const sim::Program& program
   return integrate<sim::CvodesIntegrator>(*this, program, cvodes);
 }
 
-sim::Recording<double> VehicleFixture::run_multibody_one_step(const sim::Program& program) const {
+sim::Recording<double> VehicleFixture::run_multibody_rosenbrock(const sim::Program& program) const {
   return integrate<sim::RosenbrockIntegrator>(*this, program, sim::RosenbrockOptions{});
 }
 

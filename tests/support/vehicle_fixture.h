@@ -42,8 +42,8 @@ struct VehicleFixture {
   std::vector<models::Corner<double>> corners() const;
   rigs::RigStart<double> start() const;
   sim::Recording<double> run_multibody(const sim::Program& program) const;
-  /// As run_multibody, by the method that follows drive cycles (sim/rosenbrock_integrator.h).
-  sim::Recording<double> run_multibody_one_step(const sim::Program& program) const;
+  /// By the method that follows drive cycles (sim/rosenbrock_integrator.h).
+  sim::Recording<double> run_multibody_rosenbrock(const sim::Program& program) const;
   sim::Recording<double> run_quasi_static(const sim::Program& program) const;
   sim::Recording<double> run(bool multibody, const sim::Program& program) const {
     return multibody ? run_multibody(program) : run_quasi_static(program);
