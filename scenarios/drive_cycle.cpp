@@ -128,6 +128,10 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   results.total = add_up(results.sections);
   find_economy(spec, results);
   if (results.range_m.has_value()) {
+    const rigs::VehicleBattery& battery = *spec.vehicle->battery;
+    if (const auto doubt = doubt_charge(battery.usable_J, battery.calc_recharge_J())) {
+      outcome.warnings.push_back(*doubt);
+    }
     if (const auto doubt = doubt_range(*results.range_m, *results.usable_J)) outcome.warnings.push_back(*doubt);
   }
   warn_of_map(spec, layout, outcome);

@@ -225,6 +225,12 @@ Results run(const RunSpec& spec, Settings settings, const VehicleProgram& progra
     const auto force_N = [speed_m_s](const Load& load) { return models::calc_road_load_N(load, speed_m_s); };
     results.differences.push_back({speed_m_s, force_N(results.target), force_N(found), force_N(results.set)});
   }
+  if (road_load_speeds_m_s().back() > settings.coastdowns.from_m_s * (1.0 + 1e-9)) {
+    outcome.warnings.push_back(fmt::format(
+        "the coastdowns begin at {:.0f} km/h: above that, set forces and the force on the rollers are extrapolated, up "
+        "to {:.0f} km/h, and the criterion is not tested there",
+        3.6 * settings.coastdowns.from_m_s, 3.6 * road_load_speeds_m_s().back()));
+  }
   add_highway(spec, settings, outcome.recording, results);
   if (!results.within_criterion) {
     outcome.warnings.push_back(

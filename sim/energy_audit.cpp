@@ -37,6 +37,10 @@ double EnergyAudit::calc_closure(EnergyTerm::Ledger ledger) const {
   return scale_J > 0.0 ? std::abs(find_residual_J(ledger)) / scale_J : 0.0;
 }
 
+bool EnergyAudit::is_closed(double limit) const {
+  return calc_closure(EnergyTerm::Ledger::kMechanical) <= limit && calc_closure(EnergyTerm::Ledger::kThermal) <= limit;
+}
+
 void EnergyAudit::require_closed(double limit) const {
   for (const auto& [ledger, name] :
        {std::pair{EnergyTerm::Ledger::kMechanical, "mechanical"}, std::pair{EnergyTerm::Ledger::kThermal, "thermal"}}) {

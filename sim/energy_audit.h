@@ -30,6 +30,8 @@ struct EnergyAudit {
   /// |residual| / scale, where scale is the throughput of the motor (its net work would vanish for a
   /// lossless wheel that is run up and down again), or the largest term when it did next to nothing.
   double calc_closure(EnergyTerm::Ledger ledger) const;
+  /// Whether both ledgers close to the limit.
+  bool is_closed(double limit) const;
   /// Throws RunFailure, naming the ledger and every term of it, when a closure is above the limit.
   void require_closed(double limit) const;
 };

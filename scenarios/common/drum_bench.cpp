@@ -52,7 +52,7 @@ void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, con
   const rigs::RigStart<double> start = make_drum_start(spec, conditions);
   if (spec.fidelity == Fidelity::kMultibody) {
     const auto drum = rigs::make_multibody_drum(corner, spec.rig, start, program.surface_recorded());
-    outcome.recording = run_multibody(*drum, program.program(), spec, progress, outcome.statistics);
+    outcome.recording = run_multibody(*drum, program.program(), spec, sim::kAuditLimit, progress, outcome.statistics);
   } else {
     rigs::QuasiStaticDrum<double> drum(corner, start, program.surface_recorded(), rigs::Detail::kFull);
     outcome.recording =

@@ -73,16 +73,6 @@ std::string describe_recharge(const rigs::VehicleBattery& battery) {
   return fmt::format("assumed: charging_efficiency = {:g}", battery.charging_efficiency);
 }
 
-void warn_of_charge(const rigs::VehicleBattery& battery, Outcome& outcome) {
-  constexpr double kLeast = 0.7;  // Assumed: chargers and batteries give 0.8 to 0.95 of it back
-  const double efficiency = battery.usable_J / battery.calc_recharge_J();
-  if (efficiency >= kLeast) return;
-  outcome.warnings.push_back(fmt::format(
-      "the battery gives back {:.0f} % of its recharge energy, {:.1f} of {:.1f} kWh, where charges give back 80 to "
-      "95 %: are usable_energy_kWh and recharge_energy_kWh right?",
-      1e2 * efficiency, battery.usable_J / kJ_per_kWh, battery.calc_recharge_J() / kJ_per_kWh));
-}
-
 ColdExcess find_cold_excess(const std::vector<DriveSection>& city) {
   std::vector<CycleLoss> cycles;
   for (const DriveSection& section : city) {
@@ -180,7 +170,7 @@ EconomyResults evaluate_economy(const RunSpec& spec, const rigs::VehicleLayout& 
     results.end_needed_s =
         end.duration_s + (charge.usable_J - all_J) / find_steady_battery_W(spec, layout, outcome.recording, end.name);
     warn_of_end(charge.usable_J, all_J, *results.end_needed_s, outcome);
-    warn_of_charge(*vehicle.battery, outcome);
+    if (const auto doubt = doubt_charge(charge.usable_J, *charge.recharge_J)) outcome.warnings.push_back(*doubt);
     results.recharge_from = describe_recharge(*vehicle.battery);
   } else {
     outcome.warnings.push_back(

@@ -39,6 +39,17 @@ std::optional<std::string> doubt_range(double range_m, double usable_J) {
                      range_m / 1e3, usable_J / kJ_per_kWh);
 }
 
+std::optional<std::string> doubt_charge(double usable_J, double recharge_J) {
+  constexpr double kLeast = 0.7, kMost = 0.98;
+  constexpr double kJ_per_kWh = 3.6e6;
+  const double efficiency = usable_J / recharge_J;
+  if (efficiency >= kLeast && efficiency <= kMost) return std::nullopt;
+  return fmt::format(
+      "the battery gives back {:.0f} % of its recharge energy, {:.1f} of {:.1f} kWh, where charges give back 80 to "
+      "95 %: are usable_energy_kWh and recharge_energy_kWh right?",
+      1e2 * efficiency, usable_J / kJ_per_kWh, recharge_J / kJ_per_kWh);
+}
+
 CycleEconomy combine_economy(const CycleEconomy& city, const CycleEconomy& highway) {
   const auto mix = [](double of_city, double of_highway) {
     return kCityWeight * of_city + (1.0 - kCityWeight) * of_highway;

@@ -48,6 +48,10 @@ CycleEconomy calc_economy(const std::vector<EnergySection>& cycles, const std::v
 /// Assumed: 2000 km, above any; a battery in Wh gives a thousand times the range
 std::optional<std::string> doubt_range(double range_m, double usable_J);
 
+/// A question about a charge that gives back less or more of its energy than any charger and battery do.
+/// Assumed: they give back 0.8 to 0.95; a charge is doubted below 0.7 and above 0.98
+std::optional<std::string> doubt_charge(double usable_J, double recharge_J);
+
 /// City and highway together: consumption by 55 and 45 % of the distance, ranges by the same weights.
 /// Source    10 CFR 474, appendix (consumption); ranges: second-hand, as labels of electric vehicles follow from
 ///           certificates (docs/j1634.md)

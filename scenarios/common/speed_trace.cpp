@@ -24,8 +24,7 @@ std::optional<std::string> doubt_acceleration(const SpeedTrace& trace) {
   double most_m_s2 = 0.0;
   double at_s = 0.0;
   for (std::size_t i = 1; i < trace.time_s.size(); ++i) {
-    const double rate_m_s2 =
-        (trace.speed_m_s[i] - trace.speed_m_s[i - 1]) / (trace.time_s[i] - trace.time_s[i - 1]);
+    const double rate_m_s2 = (trace.speed_m_s[i] - trace.speed_m_s[i - 1]) / (trace.time_s[i] - trace.time_s[i - 1]);
     if (std::abs(rate_m_s2) <= std::abs(most_m_s2)) continue;
     most_m_s2 = rate_m_s2;
     at_s = trace.time_s[i - 1];
@@ -33,6 +32,21 @@ std::optional<std::string> doubt_acceleration(const SpeedTrace& trace) {
   if (std::abs(most_m_s2) <= kMost_m_s2) return std::nullopt;
   return fmt::format("cycle '{}' asks for {:.3g} m/s2 from time_s = {:g} on, which no car does: are its times in s?",
                      trace.name, most_m_s2, at_s);
+}
+
+std::optional<std::string> doubt_slowness(const SpeedTrace& trace) {
+  constexpr double kLeast_m_s2 = 0.02, kMoves_m_s = 5.0;
+  double most_m_s2 = 0.0;
+  for (std::size_t i = 1; i < trace.time_s.size(); ++i) {
+    const double rate_m_s2 = (trace.speed_m_s[i] - trace.speed_m_s[i - 1]) / (trace.time_s[i] - trace.time_s[i - 1]);
+    most_m_s2 = std::max(most_m_s2, std::abs(rate_m_s2));
+  }
+  const auto [slowest, fastest] = std::minmax_element(trace.speed_m_s.begin(), trace.speed_m_s.end());
+  if (most_m_s2 >= kLeast_m_s2 || *fastest - *slowest < kMoves_m_s) return std::nullopt;
+  return fmt::format(
+      "cycle '{}' lasts {:.3g} h and never changes its speed by more than {:.2g} m/s2: are its times in s, and not in "
+      "ms?",
+      trace.name, (trace.time_s.back() - trace.time_s.front()) / 3600.0, most_m_s2);
 }
 
 std::optional<std::string> doubt_hole(const SpeedTrace& trace) {
@@ -56,7 +70,7 @@ std::optional<std::string> doubt_hole(const SpeedTrace& trace) {
 
 std::vector<std::string> doubt_trace(const SpeedTrace& trace) {
   std::vector<std::string> doubts;
-  for (const auto& doubt : {doubt_acceleration(trace), doubt_hole(trace)}) {
+  for (const auto& doubt : {doubt_acceleration(trace), doubt_slowness(trace), doubt_hole(trace)}) {
     if (doubt.has_value()) doubts.push_back(*doubt);
   }
   return doubts;
@@ -73,6 +87,9 @@ SpeedTrace read_speed_trace(const std::string& name_or_path) {
     throw InputError({"a cycle of one row goes nowhere", path, csv.line_of(0), "time_s", "", "two rows at least", ""});
   }
   trace.speed_m_s = csv.numbers({"speed_km_h", between(0.0, 400.0), "speed"});
+  if (*std::max_element(trace.speed_m_s.begin(), trace.speed_m_s.end()) <= 0.0) {
+    throw InputError({"a cycle that never moves", path, csv.line_of(0), "speed_km_h", "", "a speed above 0", ""});
+  }
   return trace;
 }
 

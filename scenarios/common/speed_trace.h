@@ -22,6 +22,10 @@ double calc_distance_m(const std::vector<double>& time_s, const std::vector<doub
 /// Assumed: 10 m/s2; the cycles of the assets have 3.8 at most
 std::optional<std::string> doubt_acceleration(const SpeedTrace& trace);
 
+/// A question about times where a cycle changes its speed less than any drive, such as milliseconds read as seconds.
+/// Assumed: 0.02 m/s2, a fifth of what a car loses that coasts; speeds that differ by less than 5 m/s are held
+std::optional<std::string> doubt_slowness(const SpeedTrace& trace);
+
 /// A question about a hole in a cycle with rows at equal intervals.
 /// Assumed: equal are nine of ten within 1 %; a hole has 20 intervals, so that a standstill of vertices is none
 std::optional<std::string> doubt_hole(const SpeedTrace& trace);

@@ -37,7 +37,8 @@ void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, 
   const rigs::RigStart<double> start = make_vehicle_start(spec, conditions);
   if (spec.fidelity == Fidelity::kMultibody) {
     const auto vehicle = rigs::make_multibody_vehicle(corners, layout, start, program.surface_recorded());
-    outcome.recording = run_multibody(*vehicle, program.program(), spec, progress, outcome.statistics);
+    outcome.recording =
+        run_multibody(*vehicle, program.program(), spec, kDriveAuditLimit, progress, outcome.statistics);
   } else {
     rigs::QuasiStaticVehicle<double> vehicle(corners, layout, start, program.surface_recorded());
     outcome.recording =

@@ -10,9 +10,11 @@ namespace rollrig::scenarios {
 /// stable.
 constexpr double kMaxStepAtRest_s = 20.0;
 
-/// CVODES on a multibody rig; what it counted goes into `statistics`.
+/// A program on a multibody rig, by CVODES, or by a Rosenbrock method where it has many short segments. Where energies
+/// do not close to `audit_limit`, as where little moves and much starts and stops, it is run again with a tenth of the
+/// tolerances, twice at most. What was counted in the last run goes into `statistics`.
 sim::Recording<double> run_multibody(sim::OdeSystem<double>& rig, const sim::Program& program, const RunSpec& spec,
-                                     const sim::Progress& progress, Json& statistics);
+                                     double audit_limit, const sim::Progress& progress, Json& statistics);
 
 /// The fixed grid on a quasi-static rig, refined near standstill; input `speed_input` of the program is the speed.
 /// A tolerance factor below 1 makes the grid finer; one above 1 changes nothing, since the phases' own steps are the

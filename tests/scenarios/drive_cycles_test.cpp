@@ -1,12 +1,16 @@
 // The shipped drive cycles, by what is published of each; and the scenario that drives one of them.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
 
 #include "scenarios/common/speed_trace.h"
+#include "scenarios/common/vehicle_bench.h"
 #include "sim/core/assets.h"
 #include "tests/support/drum_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace rollrig;
 using scenarios::read_speed_trace;
@@ -102,14 +106,55 @@ TEST_CASE("WLTC class 3b: its phases have the check sums, lengths and top speeds
   }
 }
 
-TEST_CASE("a cycle whose times are in minutes is doubted, the shipped ones are not", "[fast]") {
+TEST_CASE("a cycle whose times are in minutes or milliseconds is doubted, the shipped ones are not", "[fast]") {
   for (const char* name : {"udds", "hwfet", "us06", "wltc_class3b"}) {
     INFO(name);
     SpeedTrace trace = read_speed_trace(name);
     CHECK_FALSE(scenarios::doubt_acceleration(trace).has_value());
+    CHECK_FALSE(scenarios::doubt_slowness(trace).has_value());
+    SpeedTrace in_ms = trace;
+    for (double& time_s : in_ms.time_s) time_s *= 1000.0;
+    CHECK_THAT(scenarios::doubt_slowness(in_ms).value_or(""), Catch::Contains("not in ms?"));
     for (double& time_s : trace.time_s) time_s /= 60.0;
     CHECK(scenarios::doubt_acceleration(trace).has_value());
   }
+}
+
+TEST_CASE("a charge that equals the usable energy is doubted after a drive cycle, too", "[fast]") {
+  scenarios::RunSpec spec = make_road_spec({"cycle=us06"});
+  const auto is_doubted = [&spec] {
+    const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+    return std::any_of(outcome.warnings.begin(), outcome.warnings.end(), [](const std::string& warning) {
+      return warning.find("of its recharge energy") != std::string::npos;
+    });
+  };
+  CHECK_FALSE(is_doubted());
+  spec.vehicle->battery->recharge_J = spec.vehicle->battery->usable_J;
+  CHECK(is_doubted());
+}
+
+TEST_CASE("where little moves and much starts and stops, energies close by tighter tolerances", "[fast]") {
+  const tests::TemporaryFolder folder;
+  std::string jam = "time_s,speed_km_h\n0,0\n";
+  for (int i = 0; i < 10; ++i) {  // from 0 to 5 km/h and back
+    for (const auto& [after_s, speed_km_h] : {std::pair(1, 0), {3, 5}, {4, 5}, {6, 0}}) {
+      jam += fmt::format("{},{}\n", 10 * i + after_s, speed_km_h);
+    }
+  }
+  tests::write_file(folder.file("jam.csv"), jam);
+  for (const char* rig : {"dyno_1m2", "road"}) {
+    scenarios::RunSpec spec = tests::make_spec("drive_cycle", "a50", {"cycle=" + folder.file("jam.csv")}, "multibody");
+    spec.rig = rigs::read_rig(read_config(find_asset("rigs", rig)));
+    INFO(rig);
+    const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+    CHECK(outcome.recording.audit.is_closed(scenarios::kDriveAuditLimit));
+  }
+}
+
+TEST_CASE("a cycle that never moves is refused", "[fast]") {
+  const tests::TemporaryFolder folder;
+  tests::write_file(folder.file("still.csv"), "time_s,speed_km_h\n0,0\n60,0\n");
+  CHECK_THROWS_WITH(read_speed_trace(folder.file("still.csv")), Catch::Contains("a cycle that never moves"));
 }
 
 TEST_CASE("without friction brakes the hubs give what the road load takes over the cycle", "[fast]") {

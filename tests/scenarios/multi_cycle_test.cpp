@@ -198,6 +198,8 @@ TEST_CASE("a charge that loses much is doubted, and one that was measured is cal
   CHECK_FALSE(find_doubt());
   spec.vehicle->battery->recharge_J = 168.0 * kWh;
   CHECK(find_doubt());
+  spec.vehicle->battery->recharge_J = 60.0 * kWh;  // the direct current copied
+  CHECK(find_doubt());
 }
 
 TEST_CASE("a road load in lbf of a vehicle's file is doubted", "[fast]") {

@@ -175,6 +175,19 @@ TEST_CASE("warm rollers change the force that is set, not the coastdown on the r
   CHECK(warm["set_A_N"] != cool["set_A_N"]);
 }
 
+TEST_CASE("a setting from coastdowns that begin below its highest speed says that it extrapolates", "[fast]") {
+  const auto set = [](const char* from) {
+    return run_on("dyno_1m2", "dyno_setting", {"wheels=1", "warm_up_min=2", "iterations=1", from}).warnings;
+  };
+  const auto says = [](const std::vector<std::string>& warnings) {
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("are extrapolated, up to 130 km/h") != std::string::npos;
+    });
+  };
+  CHECK(says(set("from_km_h=60")));
+  CHECK_FALSE(says(set("from_km_h=130")));
+}
+
 TEST_CASE("rollers under a vehicle that is given by its road load leave its tires their loss", "[fast]") {
   auto spec = tests::make_spec("dyno_setting", "a50");
   spec.vehicle->road_load = models::RoadLoad<double>{150.0, 1.0, 0.4};
