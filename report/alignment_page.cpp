@@ -107,12 +107,19 @@ Table make_control_table(const AlignmentResult& result) {
   return table;
 }
 
-Table make_drift_table(const estimation::ControlDrift& drift) {
-  return {"",
-          {},
-          {{"drift", fmt::format("{:+.3f} N/kN a year ({:+.3f} to {:+.3f}), p = {}", drift.N_per_kN_per_year,
-                                 drift.low_95, drift.high_95,
-                                 estimation::format_p_value(drift.p_value, estimation::kDriftLevel))}}};
+Table make_drift_table(const estimation::ControlMonitoring& monitoring) {
+  const estimation::ControlDrift& drift = *monitoring.drift;
+  Table table{"",
+              {},
+              {{"drift", fmt::format("{:+.3f} N/kN a year ({:+.3f} to {:+.3f}), p = {}", drift.N_per_kN_per_year,
+                                     drift.low_95, drift.high_95,
+                                     estimation::format_p_value(drift.p_value, estimation::kDriftLevel))}}};
+  if (const auto& shift = monitoring.shift; shift.has_value()) {
+    table.rows.push_back({"shift", fmt::format("{:+.3f} N/kN from {} on, p = {}", shift->by_N_per_kN,
+                                               estimation::format_day(shift->from_s),
+                                               estimation::format_p_value(shift->p_value, estimation::kShiftLevel))});
+  }
+  return table;
 }
 
 Block make_line_chart(const AlignmentResult& result) {
@@ -210,7 +217,7 @@ std::vector<Table> make_alignment_tables(const AlignmentFile& file, const Alignm
 std::vector<Table> make_control_tire_tables(const AlignmentResult& result) {
   std::vector<Table> tables;
   if (!result.monitoring.charts.empty()) tables.push_back(make_control_table(result));
-  if (result.monitoring.drift.has_value()) tables.push_back(make_drift_table(*result.monitoring.drift));
+  if (result.monitoring.drift.has_value()) tables.push_back(make_drift_table(result.monitoring));
   return tables;
 }
 

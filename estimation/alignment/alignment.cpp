@@ -224,12 +224,13 @@ double calc_days_since(const ControlChart& chart, double day_s) {
   return std::floor(day_s / measurements::kDay_s) - std::floor(chart.time_s.back() / measurements::kDay_s);
 }
 
+std::string describe_shift(const ControlShift& shift) {
+  return fmt::format("shifted by {:+.3f} N/kN from {} on", shift.by_N_per_kN, format_day(shift.from_s));
+}
+
 /// What is not in control in a chart.
 std::string describe_out_of_control(const ControlChart& chart) {
-  if (chart.shift.has_value()) {
-    return fmt::format("the mean has shifted by {:+.3f} N/kN from {} on", chart.shift->by_N_per_kN,
-                       format_day(chart.shift->from_s));
-  }
+  if (chart.shift.has_value()) return "the mean has " + describe_shift(*chart.shift);
   if (chart.outside.empty()) {
     return fmt::format("{} measurements in a row on one side of their mean; measure it again", chart.longest_run);
   }
@@ -247,7 +248,10 @@ void add_chart_warnings(const ControlMonitoring& monitoring, const std::string& 
   }
 }
 
-std::string describe_drift(const ControlDrift& drift) {
+/// Of what has_drift() finds.
+std::string describe_drift(const ControlMonitoring& monitoring) {
+  if (monitoring.shift.has_value()) return "have " + describe_shift(*monitoring.shift);
+  const ControlDrift& drift = *monitoring.drift;
   return fmt::format("drift by {:+.3f} N/kN a year ({:+.3f} to {:+.3f})", drift.N_per_kN_per_year, drift.low_95,
                      drift.high_95);
 }
@@ -260,7 +264,7 @@ void add_reference_monitoring(const AlignmentFile& file, AlignmentResult& result
   if (!has_drift(result.reference_monitoring)) return;
   result.warnings.push_back(
       fmt::format("the control tires{} {}: ask its laboratory whether its values still hold", where,
-                  describe_drift(*result.reference_monitoring.drift)));
+                  describe_drift(result.reference_monitoring)));
 }
 
 /// Rows that no machine of the alignment has.
@@ -319,7 +323,7 @@ void judge_validity(const AlignmentFile& file, const AlignmentInput& input, Alig
                     input.machine_changed));
   }
   if (has_drift(result.monitoring)) {
-    result.due_because.push_back("the control tires " + describe_drift(*result.monitoring.drift));
+    result.due_because.push_back("the control tires " + describe_drift(result.monitoring));
   }
   result.is_valid = result.due_because.empty() &&
                     std::all_of(result.checks.begin(), result.checks.end(),

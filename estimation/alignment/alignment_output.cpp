@@ -55,6 +55,10 @@ Json make_line_json(const LineFit& fit, const AlignmentLine& line) {
           {"attenuation", fit.attenuation}};
 }
 
+Json make_shift_json(const ControlShift& shift) {
+  return {{"from", format_day(shift.from_s)}, {"by_N_per_kN", shift.by_N_per_kN}};
+}
+
 Json alignment_json(const ControlChart& chart) {
   Json json = {{"tire", chart.tire},
                {"measurements", chart.rrc_N_per_kN.size()},
@@ -64,9 +68,7 @@ Json alignment_json(const ControlChart& chart) {
                {"last_measurement", format_day(chart.time_s.back())},
                {"longest_run_on_one_side", chart.longest_run},
                {"largest_gap_days", chart.largest_gap_days}};
-  if (chart.shift.has_value()) {
-    json["shift"] = {{"from", format_day(chart.shift->from_s)}, {"by_N_per_kN", chart.shift->by_N_per_kN}};
-  }
+  if (chart.shift.has_value()) json["shift"] = make_shift_json(*chart.shift);
   json["outside"] = make_list(chart.outside, [&chart](std::size_t i) {
     return Json{{"date", format_day(chart.time_s[i])}, {"rrc_N_per_kN", chart.rrc_N_per_kN[i]}};
   });
@@ -76,6 +78,10 @@ Json alignment_json(const ControlChart& chart) {
 Json make_monitoring_json(const ControlMonitoring& monitoring) {
   Json json = {
       {"tires", make_list(monitoring.charts, [](const ControlChart& chart) { return alignment_json(chart); })}};
+  if (monitoring.shift.has_value()) {
+    json["shift"] = make_shift_json(*monitoring.shift);
+    json["shift"]["p"] = monitoring.shift->p_value;
+  }
   if (!monitoring.drift.has_value()) return json;
   const ControlDrift& drift = *monitoring.drift;
   json["drift"] = {{"N_per_kN_per_year", drift.N_per_kN_per_year},

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <set>
 
 namespace rollrig::estimation {
 namespace {
 
 constexpr double kDay = 86400.0;
 constexpr double kYear_s = 365.25 * kDay;
+constexpr double kLeastShiftFreedom = 2.0;    // that of two measurements on each side
 constexpr double kRounding_N_per_kN = 1e-9;  // of a mean of equal values
 constexpr double kMeanRangeOfTwo = 1.128;  // d2: expected range of two normal values over their standard deviation
 
@@ -28,35 +31,74 @@ std::size_t find_longest_run(const ControlChart& chart, double step) {
   return longest;
 }
 
-/// Sum of squares about the mean, and the mean, of a part of the values.
-struct PartOfValues {
-  double mean = 0.0, squares = 0.0;
-
-  PartOfValues(const std::vector<double>& values, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) mean += values[i] / static_cast<double>(end - begin);
-    for (std::size_t i = begin; i < end; ++i) squares += (values[i] - mean) * (values[i] - mean);
-  }
+/// Least squares of the values over x, with one slope within tires of their own levels.
+struct CommonSlope {
+  double slope = 0.0;
+  double freedom = 0.0;
+  double sd = 0.0;  // of the slope
+  double p_value = 1.0;
 };
 
-std::optional<ControlShift> find_shift(const ControlChart& chart, double step) {
-  constexpr std::size_t kLeastOnASide = 2;
-  const std::vector<double>& values = chart.rrc_N_per_kN;
-  if (values.size() < kLeastControlMeasurements) return std::nullopt;
-  const double count = static_cast<double>(values.size()), freedom = count - 2.0;
-  double greatest_t = 0.0;
-  ControlShift shift;
-  for (std::size_t at = kLeastOnASide; at + kLeastOnASide <= values.size(); ++at) {
-    const PartOfValues before(values, 0, at), after(values, at, values.size());
-    const double sd = std::max(std::sqrt((before.squares + after.squares) / freedom), calc_rounding_sd(step));
-    if (!(sd > 0.0)) continue;
-    const double by = after.mean - before.mean, before_count = static_cast<double>(at);
-    const double t = std::abs(by) / sd / std::sqrt(1.0 / before_count + 1.0 / (count - before_count));
-    if (t <= greatest_t) continue;
-    greatest_t = t;
-    shift = {chart.time_s[at], by};
+/// `x_of`: of a time [s]. None where x is one within each tire.
+template <typename XOfTime>
+std::optional<CommonSlope> fit_common_slope(const std::vector<ControlChart>& charts, double step, const XOfTime& x_of) {
+  double Sxx = 0.0, Sxy = 0.0, Syy = 0.0;
+  CommonSlope common{0.0, -1.0};
+  for (const ControlChart& chart : charts) {
+    const double count = static_cast<double>(chart.time_s.size());
+    double mean_x = 0.0;
+    for (const double time_s : chart.time_s) mean_x += x_of(time_s) / count;
+    for (std::size_t i = 0; i < chart.time_s.size(); ++i) {
+      const double x = x_of(chart.time_s[i]) - mean_x, y = chart.rrc_N_per_kN[i] - chart.center_N_per_kN;
+      Sxx += x * x;
+      Sxy += x * y;
+      Syy += y * y;
+    }
+    common.freedom += count - 1.0;
   }
-  const double p = 2.0 * boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), greatest_t));
-  return p * (count - 3.0) < kShiftLevel ? std::optional(shift) : std::nullopt;
+  if (common.freedom < 1.0 || !(Sxx > 0.0)) return std::nullopt;
+  common.slope = Sxy / Sxx;
+  const double about = std::sqrt(std::max(0.0, Syy - Sxy * Sxy / Sxx) / common.freedom);
+  common.sd = std::max(about, calc_rounding_sd(step)) / std::sqrt(Sxx);
+  if (!(common.sd > 0.0)) return common;
+  const boost::math::students_t distribution(common.freedom);
+  common.p_value =
+      2.0 * boost::math::cdf(boost::math::complement(distribution, std::abs(common.slope) / common.sd));
+  return common;
+}
+
+double calc_years(double time_s) { return time_s / kYear_s; }
+
+/// The least number of measurements on one side of a day, of the tires that have some on both.
+std::size_t count_on_lesser_side(const std::vector<ControlChart>& charts, double from_s) {
+  std::size_t before = 0, after = 0;
+  for (const ControlChart& chart : charts) {
+    const auto first_after = std::lower_bound(chart.time_s.begin(), chart.time_s.end(), from_s);
+    if (first_after == chart.time_s.begin() || first_after == chart.time_s.end()) continue;
+    before += static_cast<std::size_t>(first_after - chart.time_s.begin());
+    after += static_cast<std::size_t>(chart.time_s.end() - first_after);
+  }
+  return std::min(before, after);
+}
+
+/// The significant step of the mean that all tires have in common, where it is likelier than a drift.
+std::optional<ControlShift> find_shift(const std::vector<ControlChart>& charts, double step) {
+  constexpr std::size_t kLeastOnASide = 2;
+  std::set<double> times_s;
+  for (const ControlChart& chart : charts) times_s.insert(chart.time_s.begin(), chart.time_s.end());
+  ControlShift shift;
+  double places = 0.0;
+  for (const double from_s : times_s) {
+    if (count_on_lesser_side(charts, from_s) < kLeastOnASide) continue;
+    const auto found = fit_common_slope(charts, step, [from_s](double time_s) { return time_s < from_s ? 0.0 : 1.0; });
+    if (!found.has_value() || found->freedom < kLeastShiftFreedom) continue;
+    places += 1.0;
+    if (found->p_value < shift.p_value) shift = {from_s, found->slope, found->p_value};
+  }
+  shift.p_value = std::min(1.0, shift.p_value * places);
+  if (places < 1.0 || !(shift.p_value < kShiftLevel)) return std::nullopt;
+  const auto drift = fit_common_slope(charts, step, calc_years);
+  return drift.has_value() && drift->p_value < shift.p_value ? std::nullopt : std::optional(shift);
 }
 
 ControlChart make_chart(const ControlTire& tire, double step) {
@@ -84,41 +126,27 @@ ControlChart make_chart(const ControlTire& tire, double step) {
     if (from_center > limit + kRounding_N_per_kN) chart.outside.push_back(i);
   }
   chart.longest_run = find_longest_run(chart, step);
-  chart.shift = find_shift(chart, step);
+  chart.shift = find_shift({chart}, step);
   return chart;
 }
 
-/// One slope within tires of their own levels.
 std::optional<ControlDrift> find_drift(const std::vector<ControlChart>& charts, double step) {
-  double Sxx = 0.0, Sxy = 0.0, Syy = 0.0, freedom = -1.0;
+  constexpr double kLeastFreedom = 3.0;
+  const auto common = fit_common_slope(charts, step, calc_years);
+  if (!common.has_value() || common->freedom < kLeastFreedom) return std::nullopt;
   double first_s = std::numeric_limits<double>::infinity(), last_s = -first_s;
   for (const ControlChart& chart : charts) {
-    const double count = static_cast<double>(chart.time_s.size());
-    const double mean_s = std::accumulate(chart.time_s.begin(), chart.time_s.end(), 0.0) / count;
-    for (std::size_t i = 0; i < chart.time_s.size(); ++i) {
-      const double x = (chart.time_s[i] - mean_s) / kYear_s, y = chart.rrc_N_per_kN[i] - chart.center_N_per_kN;
-      Sxx += x * x;
-      Sxy += x * y;
-      Syy += y * y;
-    }
-    freedom += count - 1.0;
     first_s = std::min(first_s, chart.time_s.front());
     last_s = std::max(last_s, chart.time_s.back());
   }
-  if (freedom < 3.0 || !(Sxx > 0.0)) return std::nullopt;
   ControlDrift drift;
-  drift.N_per_kN_per_year = Sxy / Sxx;
-  drift.degrees_of_freedom = freedom;
-  const double about = std::sqrt(std::max(0.0, Syy - Sxy * Sxy / Sxx) / freedom);
-  const double sd = std::max(about, calc_rounding_sd(step)) / std::sqrt(Sxx);
-  const boost::math::students_t distribution(freedom);
-  const double half = sd * boost::math::quantile(boost::math::complement(distribution, 0.025));
+  drift.N_per_kN_per_year = common->slope;
+  drift.degrees_of_freedom = common->freedom;
+  drift.p_value = common->p_value;
+  const boost::math::students_t distribution(common->freedom);
+  const double half = common->sd * boost::math::quantile(boost::math::complement(distribution, 0.025));
   drift.low_95 = drift.N_per_kN_per_year - half;
   drift.high_95 = drift.N_per_kN_per_year + half;
-  if (sd > 0.0) {
-    const double t = std::abs(drift.N_per_kN_per_year) / sd;
-    drift.p_value = 2.0 * boost::math::cdf(boost::math::complement(distribution, t));
-  }
   drift.over_time_N_per_kN = drift.N_per_kN_per_year * (last_s - first_s) / kYear_s;
   return drift;
 }
@@ -134,16 +162,18 @@ ControlMonitoring watch_control_tires(const std::vector<ControlTire>& tires) {
   const double step = find_value_step(values);
   for (const ControlTire& tire : tires) monitoring.charts.push_back(make_chart(tire, step));
   monitoring.drift = find_drift(monitoring.charts, step);
+  monitoring.shift = find_shift(monitoring.charts, step);
   return monitoring;
 }
 
 bool has_drift(const ControlMonitoring& monitoring) {
-  return monitoring.drift.has_value() && monitoring.drift->p_value < kDriftLevel;
+  return monitoring.shift.has_value() || (monitoring.drift.has_value() && monitoring.drift->p_value < kDriftLevel);
 }
 
 bool is_out_of_control(const ControlChart& chart) {
-  return chart.rrc_N_per_kN.size() >= kLeastControlMeasurements &&
-         (!chart.outside.empty() || chart.longest_run >= kMostOnOneSide);
+  const bool has_limits = chart.rrc_N_per_kN.size() >= kLeastControlMeasurements;
+  return chart.shift.has_value() ||
+         (has_limits && (!chart.outside.empty() || chart.longest_run >= kMostOnOneSide));
 }
 
 }  // namespace rollrig::estimation

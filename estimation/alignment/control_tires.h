@@ -10,10 +10,11 @@
 
 namespace rollrig::estimation {
 
-/// From when on a control tire has another mean.
+/// From when on a control tire, or all of them, have another mean.
 struct ControlShift {
   double from_s = 0.0;
   double by_N_per_kN = 0.0;
+  double p_value = 1.0;  // Bonferroni
 };
 
 /// One control tire.
@@ -43,12 +44,13 @@ struct ControlDrift {
 struct ControlMonitoring {
   std::vector<ControlChart> charts;
   std::optional<ControlDrift> drift;  // where there are measurements enough
+  std::optional<ControlShift> shift;  // of all tires, where it is significant and likelier than a drift
 };
 
 inline constexpr std::size_t kLeastControlMeasurements = 5;  // Assumed: of a chart of its own
 inline constexpr std::size_t kMostOnOneSide = 8;             // Western Electric rule 4. Second-hand
-inline constexpr double kDriftLevel = 0.01;                  // Assumed: level of significance of a drift
-inline constexpr double kShiftLevel = 0.01;                  // Assumed: of a shift
+inline constexpr double kDriftLevel = 0.005;                 // Assumed: of significance; 0.01 of drift and shift
+inline constexpr double kShiftLevel = 0.005;                 // Assumed: of a shift
 
 /// Charts of individual values, and the drift.
 ///
@@ -56,14 +58,16 @@ inline constexpr double kShiftLevel = 0.01;                  // Assumed: of a sh
 ///           a step nearer before its rounding;
 ///           x = level of the tire + slope t, least squares over all tires with one slope; t test of it;
 ///           sd, and that about the slope, not below the rounding of the values, step/sqrt(12) of all tires;
-///           shift: the place, with two measurements on each side at least, of the greatest t of both means; Bonferroni
+///           shift: the same with 1 from a day on, else 0, for t; the day, with two measurements on each side at least,
+///           of the greatest t; Bonferroni over the days. Of drift and shift, the one of the smaller p. A chart has the
+///           shift of its tire alone, the monitoring the one that all tires have in common
 /// Validity  a common slope: a machine that drifts by a share moves tires of different RRC by different amounts, of
 ///           which this is the mean. A tire that ages drifts as well: several control tires tell it from the machine
 /// Source    ISO 7870-2, charts of individuals and moving ranges (1.128 = d2 of two values). Second-hand
 /// Checked   tests/estimation/control_tires_test.cpp
 ControlMonitoring watch_control_tires(const std::vector<ControlTire>& tires);
 
-/// Whether the drift is significant, or a chart is out of control.
+/// Whether a drift or a shift of all control tires is significant, or a chart is out of control.
 bool has_drift(const ControlMonitoring& monitoring);
 bool is_out_of_control(const ControlChart& chart);
 

@@ -137,3 +137,61 @@ TEST_CASE("a step of the mean is named by the day from which on it is there", "[
   CHECK(chart.shift->from_s == Approx(8.0 * 28.0 * kDay));
   CHECK(chart.shift->by_N_per_kN == Approx(0.3).margin(0.06));
 }
+
+TEST_CASE("one jump of one control tire with few values is a shift of the machine", "[fast]") {
+  const auto watch = [](const std::vector<double>& values) {
+    std::vector<ControlTire> tires{{"K1", {}}};
+    for (const double value : values) {
+      tires[0].measurements.push_back({28.0 * kDay * static_cast<double>(tires[0].measurements.size()), value, true});
+    }
+    return watch_control_tires(tires);
+  };
+  const ControlMonitoring seen = watch({8.24, 8.24, 8.20, 8.67, 8.58, 8.61});
+  REQUIRE(seen.shift.has_value());
+  CHECK(seen.shift->from_s == Approx(3.0 * 28.0 * kDay));
+  CHECK(seen.shift->by_N_per_kN == Approx(0.3933).margin(1e-4));
+  CHECK(seen.shift->p_value == Approx(0.000558).margin(1e-6));  // t = 13.27 of 4 degrees of freedom, of three days
+  CHECK(has_drift(seen));
+  CHECK(is_out_of_control(seen.charts[0]));
+  CHECK(has_drift(watch({8.24, 8.22, 9.24, 9.21})));
+  CHECK(has_drift(watch({8.24, 8.22, 8.25, 9.24, 9.21, 9.26})));
+  CHECK_FALSE(has_drift(watch({8.24, 8.22, 9.24})));
+  CHECK_FALSE(has_drift(watch({8.2, 8.2, 8.3, 8.3})));  // a step of the values
+}
+
+TEST_CASE("a jump of one of two control tires is its own, one of both is that of the machine", "[fast]") {
+  RandomStream random(8, "whose shift");
+  std::vector<ControlTire> tires = make_controls(random, 0.0, 6, 0.03);
+  for (std::size_t i = 3; i < 6; ++i) tires[1].measurements[i].rrc_N_per_kN += 0.4;
+  const ControlMonitoring one = watch_control_tires(tires);
+  CHECK_FALSE(one.shift.has_value());
+  CHECK_FALSE(is_out_of_control(one.charts[0]));
+  CHECK(is_out_of_control(one.charts[1]));
+  for (std::size_t i = 3; i < 6; ++i) tires[0].measurements[i].rrc_N_per_kN += 0.4;
+  const ControlMonitoring both = watch_control_tires(tires);
+  REQUIRE(both.shift.has_value());
+  CHECK(both.shift->by_N_per_kN == Approx(0.4).margin(0.06));
+}
+
+TEST_CASE("control tires that hold are seldom said to drift or to shift, whatever their number and rounding",
+          "[fast]") {
+  RandomStream random(9, "no shift");
+  constexpr int kTimes = 400;
+  for (const double step : {0.001, 0.01, 0.1}) {
+    int found = 0, sets = 0;
+    for (const int months : {4, 5, 6, 8, 12}) {
+      for (int i = 0; i < kTimes; ++i, ++sets) {
+        std::vector<ControlTire> tires = make_controls(random, 0.0, months, 0.04);
+        tires.pop_back();
+        const double level = random.uniform();
+        for (AlignmentMeasurement& one : tires[0].measurements) {
+          one.rrc_N_per_kN = step * std::round((one.rrc_N_per_kN + level) / step);
+        }
+        const ControlMonitoring seen = watch_control_tires(tires);
+        found += has_drift(seen) || seen.charts[0].shift.has_value() ? 1 : 0;
+      }
+    }
+    INFO(step << ": " << found << " of " << sets);
+    CHECK(found / double(sets) < 0.0165);  // level 0.01, three standard deviations of 2000 draws
+  }
+}
