@@ -9,6 +9,7 @@
 
 #include "estimation/drum_deceleration/coast_curves.h"
 #include "estimation/drum_deceleration/odd_coasts.h"
+#include "estimation/run_checks/odd_runs.h"
 #include "estimation/run_checks/robust_statistics.h"
 
 namespace rollrig::estimation {
@@ -115,13 +116,13 @@ double calc_mean_deceleration(const Coast& coast, double high_m_s, double low_m_
 }
 
 /// Mean decelerations of the runs of the lifted wheel over the speeds that all of them pass; empty where none are.
-std::map<std::size_t, double> find_wheel_decelerations(const CoastSet& set,
-                                                       const std::vector<CoastAnalysis>& analyses) {
+std::map<std::size_t, double> find_wheel_decelerations(const CoastSet& set, const std::vector<CoastAnalysis>& analyses,
+                                                       const std::set<std::size_t>& without) {
   constexpr double kLeastFall_m_s = 2.0;  // Assumed
   std::vector<const CoastAnalysis*> wheels;
   double high_m_s = 1e9, low_m_s = 0.0;
   for (const CoastAnalysis& analysis : analyses) {
-    const bool is_lifted = set.runs[analysis.run].state == CoastState::kLifted;
+    const bool is_lifted = set.runs[analysis.run].state == CoastState::kLifted && without.count(analysis.run) == 0;
     if (analysis.body != CoastBody::kWheel || !is_lifted || analysis.coast.smooth_m_s.size() < 2) continue;
     wheels.push_back(&analysis);
     high_m_s = std::min(high_m_s, analysis.coast.smooth_m_s.front());
@@ -136,27 +137,66 @@ std::map<std::size_t, double> find_wheel_decelerations(const CoastSet& set,
   return decelerations;
 }
 
+constexpr std::size_t kFewestWheels = 3;  // of which one is the odd one
+
+/// The run of the lifted wheel that slows down otherwise than the others, or the second of two; relative: of the
+/// logarithm.
+std::optional<OddRun> find_odd_wheel(const std::map<std::size_t, double>& decelerations) {
+  constexpr double kAnySpeed_m_s = 1.0;  // a mean over speeds has none
+  ScatterPrior prior;
+  prior.run_sd = 0.03;  // Assumed: more than of drums, as the bearings of a wheel warm up
+  prior.fewest = 1;
+  std::vector<RunDeviation> deviations;
+  if (decelerations.size() < kFewestWheels) {
+    prior.run_sd *= std::sqrt(2.0);  // of a difference
+    const double log = std::log(decelerations.rbegin()->second / decelerations.begin()->second);
+    deviations.push_back({decelerations.rbegin()->first, 0, {kAnySpeed_m_s}, {log}});
+    return find_odd_run(deviations, prior);
+  }
+  for (const auto& [index, deceleration] : decelerations) {
+    std::vector<double> others;
+    for (const auto& [other, value] : decelerations) {
+      if (other != index) others.push_back(value);
+    }
+    deviations.push_back({index, 0, {kAnySpeed_m_s}, {std::log(deceleration / calc_median(others))}});
+  }
+  return find_odd_run(deviations, prior);
+}
+
+/// `first`: the other run, of two.
+RunDoubt describe_odd_wheel(const CoastRun& run, double ratio, const CoastRun* first) {
+  constexpr double kMostFactor = 2.0;  // Assumed: friction of cold bearings is less than twice that of warm ones
+  const bool is_other_body = ratio > kMostFactor || ratio < 1.0 / kMostFactor;
+  RunDoubt doubt{DoubtKind::kOdd, {run.id}, is_other_body ? "another body" : "", ratio - 1.0, ""};
+  const char* why = is_other_body ? "is its body 'wheel', and was it free?"
+                                  : "was it free, and were its bearings as warm?";
+  if (first == nullptr) {
+    doubt.text = fmt::format(
+        "{}: the wheel slows down {:.3g} times as fast as in the other runs of the lifted wheel: {}", run.id, ratio,
+        why);
+    return doubt;
+  }
+  doubt.runs.insert(doubt.runs.begin(), first->id);
+  doubt.text = fmt::format(
+      "{} and {} should repeat each other, but the lifted wheel slows down {:.3g} times as fast in the second. Nothing "
+      "tells which one is wrong; the results have the mean of both, with a wide interval. Of each: {}",
+      first->id, run.id, ratio, why);
+  return doubt;
+}
+
 /// Runs of the lifted wheel that slow down otherwise than the others of it.
 void check_lifted_wheels(const CoastSet& set, const std::vector<CoastAnalysis>& analyses, CoastDoubts& checked) {
-  constexpr double kMostFactor = 2.0;  // Assumed: friction of cold bearings is less than twice that of warm ones
-  constexpr std::size_t kFewest = 3;   // of which one is the odd one
-  const std::map<std::size_t, double> decelerations = find_wheel_decelerations(set, analyses);
-  if (decelerations.size() < 2) return;
-  std::vector<double> values;
-  for (const auto& [index, deceleration] : decelerations) values.push_back(deceleration);
-  const double usual = values.size() < kFewest ? values.back() : calc_median(values);
-  for (const auto& [index, deceleration] : decelerations) {
-    const double ratio = deceleration / usual;
-    if (ratio < kMostFactor && ratio > 1.0 / kMostFactor) continue;
-    const CoastRun& run = set.runs[index];
-    RunDoubt doubt{DoubtKind::kOdd, {run.id}, "another body", ratio - 1.0, ""};
-    doubt.text = fmt::format(
-        "{}: the wheel slows down {:.3g} times as fast as in the other {} of the lifted wheel: is its body 'wheel', "
-        "and was it free?",
-        run.id, ratio, values.size() < kFewest ? "run" : "runs");
-    checked.doubts.push_back(doubt);
-    if (decelerations.size() < kFewest) return;  // of two, nothing tells which one
-    if (!run.drum.has_value()) checked.set_aside.insert(index);
+  std::map<std::size_t, double> decelerations = find_wheel_decelerations(set, analyses, checked.set_aside);
+  const std::size_t most = decelerations.size() / 2;
+  for (std::size_t found = 0; found < most && decelerations.size() > 1; ++found) {
+    const std::optional<OddRun> odd = find_odd_wheel(decelerations);
+    if (!odd.has_value()) return;
+    const bool is_pair = decelerations.size() < kFewestWheels;
+    checked.doubts.push_back(describe_odd_wheel(set.runs[odd->run], std::exp(odd->relative),
+                                                is_pair ? &set.runs[decelerations.begin()->first] : nullptr));
+    if (is_pair) return;
+    if (!set.runs[odd->run].drum.has_value()) checked.set_aside.insert(odd->run);
+    decelerations.erase(odd->run);
   }
 }
 

@@ -26,6 +26,8 @@ struct CoastDoubts {
 /// three
 ///   runs or more, is compared with the median of the others. Of two runs at a pressure, the odd one is the one that is
 ///   farther from what the other pressures say; where that does not tell, both are named.
+/// * Lifted wheel: find_odd_run() on the logarithms of the mean decelerations of the wheel over the speeds that all of
+///   its runs pass, each beside the median of the others, or of two beside each other; then both are named.
 /// Validity  fewer than half of the runs of a state are wrong
 /// Source    Assumed: limits
 /// Checked   tests/estimation/coast_doubts_test.cpp, tests/estimation/planted_mistakes_test.cpp

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 
 #include "estimation/drum_deceleration/coast_doubts.h"
@@ -186,19 +188,42 @@ void require_drum_deceleration(const CoastSet& set, DrumCoastdownFit& fit) {
       "time_s", fmt::format("a deceleration of {:g} to {:g} m/s2", kLeast_m_s2, kMost_m_s2), fit);
 }
 
-/// Doubts a rolling radius that looks like a diameter.
+/// Least and most of the rolling radii that are not doubted.
+struct UsualRadius {
+  double least_m = 0.0, most_m = 0.0;
+};
+
+/// By the load, where it is that of trucks, else by the mass that the wheel has at the radius. 0, or infinity, where
+/// they are not known.
+UsualRadius find_usual_radius(double load_N, double wheel_kg) {
+  constexpr double kTruckLoad_N = 12e3;  // Assumed: more than of any tire of cars and vans
+  constexpr double kTruckWheel_kg = 20.0;  // Assumed: truck wheels have some 30 kg at the radius, those of cars 6 to 20
+  constexpr UsualRadius kOfTrucks{0.33, 0.6};     // Assumed: truck tires have 0.37 to 0.55
+  constexpr UsualRadius kOfHeavyWheel{0.25, 0.6};  // Assumed: a small wheel is light
+  constexpr UsualRadius kOfLightWheel{0.2, 0.45};  // Assumed: from a trailer's and a scooter's to a large car's
+  if (load_N > kTruckLoad_N) return kOfTrucks;
+  if (std::isinf(wheel_kg)) return {kOfLightWheel.least_m, kOfTrucks.most_m};
+  return wheel_kg >= kTruckWheel_kg ? kOfHeavyWheel : kOfLightWheel;
+}
+
+/// Doubts a rolling radius that looks like a diameter, or like half a radius.
 void doubt_rolling_radius(const CoastSet& set, DrumCoastdownFit& fit) {
-  constexpr double kMost_m = 0.6;     // Assumed: truck tires have up to 0.55
-  constexpr double kMostCar_m = 0.45;  // Assumed: above it are truck tires, whose wheels have some 30 kg at the radius
-  constexpr double kLeastTruck_kg = 20.0;
   if (!set.wheel_rolling_radius_m.has_value()) return;
   const double radius_m = *set.wheel_rolling_radius_m;
-  const double wheel_kg = set.wheel_inertia_kg_m2.value_or(1e9) / (radius_m * radius_m);
-  if (radius_m <= kMost_m && (radius_m <= kMostCar_m || wheel_kg >= kLeastTruck_kg)) return;
+  const double wheel_kg =
+      set.wheel_inertia_kg_m2.value_or(std::numeric_limits<double>::infinity()) / (radius_m * radius_m);
+  double load_N = 0.0;
+  for (const CoastRun& run : set.runs) load_N = std::max(load_N, run.load_N);
+  const UsualRadius usual = find_usual_radius(load_N, wheel_kg);
+  if (radius_m >= usual.least_m && radius_m <= usual.most_m) return;
+  const std::string why = radius_m > usual.most_m
+                              ? fmt::format("Is it the diameter? Half of it is {:g} m", 0.5 * radius_m)
+                              : fmt::format("Is it that of the rim, or half of the radius? Twice it is {:g} m",
+                                            2.0 * radius_m);
   fit.warnings.push_back(
-      fmt::format("rolling_radius_m of [wheel] is {:g} m; tires of cars have 0.25 to 0.4 m, of trucks up to 0.55 m "
-                  "(Assumed). Is it the diameter? Half of it is {:g} m",
-                  radius_m, 0.5 * radius_m));
+      fmt::format("rolling_radius_m of [wheel] is {:g} m{}; tires of cars have 0.25 to 0.4 m, of trucks up to 0.55 m "
+                  "(Assumed). {}",
+                  radius_m, load_N > 0.0 ? fmt::format(", at a load of {:g} N", load_N) : "", why));
 }
 
 /// Refuses inertias that no drum and wheel have together, doubts those of an unusual wheel.
@@ -289,22 +314,71 @@ void doubt_units(const CoastSet& set, DrumCoastdownFit& fit) {
   }
 }
 
+/// Runs of one kind: their highest and lowest speeds.
+struct KindOfRuns {
+  const char* name;
+  CoastState state;
+  CoastBody body;
+  std::size_t runs = 0;
+  double high_m_s = 0.0, low_m_s = std::numeric_limits<double>::infinity();
+  bool passes_any = false;  // a speed that is asked for
+};
+
+std::vector<KindOfRuns> list_kinds_of_runs(const CoastSet& set, const DrumCoastdownFit& fit) {
+  std::vector<KindOfRuns> kinds{{"loaded", CoastState::kLoaded, CoastBody::kDrum},
+                                {"lifted", CoastState::kLifted, CoastBody::kDrum},
+                                {"lifted wheel", CoastState::kLifted, CoastBody::kWheel}};
+  for (KindOfRuns& kind : kinds) {
+    for (const CoastAnalysis& analysis : fit.analyses) {
+      const std::vector<double>& speeds_m_s = analysis.coast.smooth_m_s;
+      if (analysis.body != kind.body || set.runs[analysis.run].state != kind.state || speeds_m_s.empty()) continue;
+      ++kind.runs;
+      kind.high_m_s = std::max(kind.high_m_s, speeds_m_s.front());
+      kind.low_m_s = std::min(kind.low_m_s, speeds_m_s.back());
+    }
+    kind.passes_any = std::any_of(set.speeds_m_s.begin(), set.speeds_m_s.end(), [&kind](double asked_m_s) {
+      return asked_m_s < kind.high_m_s && asked_m_s > kind.low_m_s;
+    });
+  }
+  return kinds;
+}
+
+/// Whether speeds of a kind would reach those asked for if they were in m/s, as high as those of kinds that do.
+bool looks_like_m_s(const KindOfRuns& kind, const std::vector<KindOfRuns>& kinds, double lowest_m_s) {
+  constexpr double kMostOff = 0.3;  // Assumed: of the highest speeds of two kinds of runs
+  const double high_m_s = kKmhPerMs * kind.high_m_s;
+  if (kind.high_m_s >= lowest_m_s || high_m_s <= lowest_m_s) return false;
+  double others_m_s = 0.0;
+  for (const KindOfRuns& other : kinds) {
+    if (other.passes_any) others_m_s = std::max(others_m_s, other.high_m_s);
+  }
+  return others_m_s <= 0.0 || std::abs(high_m_s / others_m_s - 1.0) < kMostOff;
+}
+
+/// The runs of a kind that pass none of the speeds that are asked for, and whether they look like m/s; empty for none.
+std::string explain_missed_speeds(const CoastSet& set, const DrumCoastdownFit& fit) {
+  const auto [lowest, highest] = std::minmax_element(set.speeds_m_s.begin(), set.speeds_m_s.end());
+  std::string text;
+  const std::vector<KindOfRuns> kinds = list_kinds_of_runs(set, fit);
+  for (const KindOfRuns& kind : kinds) {
+    if (kind.runs == 0 || kind.passes_any) continue;
+    text += fmt::format(". The speeds of the {} run{} are {:.1f} to {:.1f} km/h, those asked for {:g} to {:g} km/h",
+                        kind.name, kind.runs == 1 ? "" : "s", kKmhPerMs * kind.high_m_s, kKmhPerMs * kind.low_m_s,
+                        kKmhPerMs * *lowest, kKmhPerMs * *highest);
+    if (!looks_like_m_s(kind, kinds, *lowest)) continue;
+    text += fmt::format(": is their speed_km_h in m/s? It would be up to {:.1f} km/h",
+                        kKmhPerMs * kKmhPerMs * kind.high_m_s);
+  }
+  return text.empty() ? "" : text + ". Else: speeds_km_h of [analysis]";
+}
+
 /// Why no speed gives a result: what is doubted, and what the fits of single runs say.
 std::string explain_no_speed(const CoastSet& set, const DrumCoastdownFit& fit) {
-  std::string text = "at none of the speeds asked for do loaded and lifted runs both pass";
+  const std::string text = "at none of the speeds asked for do loaded and lifted runs both pass";
   if (!fit.doubts.empty()) return text + ". In doubt: " + fit.doubts.front().text;
-  const auto top_m_s = [](const CoastAnalysis& analysis) {
-    return analysis.coast.smooth_m_s.empty() ? 0.0 : analysis.coast.smooth_m_s.front();
-  };
-  double fastest_m_s = 0.0;
-  for (const CoastAnalysis& analysis : fit.analyses) fastest_m_s = std::max(fastest_m_s, top_m_s(analysis));
-  const double asked_m_s = *std::min_element(set.speeds_m_s.begin(), set.speeds_m_s.end());
-  if (fastest_m_s < asked_m_s && kKmhPerMs * fastest_m_s > asked_m_s) {
-    return text + fmt::format(". The speeds end at {:.1f} km/h: is speed_km_h in m/s? Else: speeds_km_h of [analysis]",
-                              kKmhPerMs * fastest_m_s);
-  }
+  if (const std::string missed = explain_missed_speeds(set, fit); !missed.empty()) return text + missed;
   for (const CoastAnalysis& analysis : fit.analyses) {
-    if (analysis.body != CoastBody::kDrum || analysis.decelerations.empty()) continue;
+    if (analysis.decelerations.empty()) continue;
     const DecelerationFit& at = analysis.decelerations[analysis.decelerations.size() / 2];
     if (!at.available) return text + fmt::format(". Of {}: {}", set.runs[analysis.run].id, at.why);
   }

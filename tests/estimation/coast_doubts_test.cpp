@@ -184,3 +184,97 @@ TEST_CASE("a rolling radius that looks like a diameter is doubted", "[fast]") {
   CHECK(is_doubted(0.688, 1.1));
   CHECK(is_doubted(0.5, 0.8));
 }
+
+TEST_CASE("a rolling radius that looks like half of it is doubted, by the load and by the wheel", "[fast]") {
+  const auto says = [](double radius_m, double inertia_kg_m2, double load_N) {
+    CoastSet set = make_set();
+    set.wheel_mass_ratio.reset();
+    set.drum_inertia_kg_m2 = 850.0 * load_N / 4000.0;
+    set.wheel_inertia_kg_m2 = inertia_kg_m2;
+    set.wheel_rolling_radius_m = radius_m;
+    for (CoastRun& run : set.runs) run.load_N = run.state == CoastState::kLoaded ? load_N : 0.0;
+    std::string all;
+    for (const std::string& warning : fit_drum_coastdown(set).warnings) all += warning + "; ";
+    return all;
+  };
+  CHECK_THAT(says(0.172, 1.1, 4000.0), Contains("half of the radius? Twice it is 0.344 m"));
+  CHECK_THAT(says(0.21, 1.8, 6000.0), Contains("half of the radius?"));   // a wheel of 41 kg is no small one
+  CHECK_THAT(says(0.26, 9.0, 25000.0), Contains("half of the radius?"));  // a load of trucks
+  CHECK_THAT(says(0.25, 0.4, 2500.0), !Contains("rolling_radius_m of [wheel] is"));
+  CHECK_THAT(says(0.37, 4.0, 20000.0), !Contains("rolling_radius_m of [wheel] is"));
+  CHECK_THAT(says(0.52, 12.0, 30000.0), !Contains("rolling_radius_m of [wheel] is"));
+  CHECK_THAT(says(0.42, 1.9, 9000.0), !Contains("rolling_radius_m of [wheel] is"));
+}
+
+namespace {
+
+/// The lifted wheel in runs of its own.
+CoastSet make_wheel_runs(std::size_t count, std::uint64_t seed = 3) {
+  CoastSet set = tests::make_coasts({}, seed);
+  for (std::size_t i = 0, with_wheel = 0, runs = set.runs.size(); i < runs; ++i) {
+    set.runs[i].id = std::to_string(i) + ".csv";
+    if (!set.runs[i].wheel.has_value() || set.runs[i].state != CoastState::kLifted) continue;
+    CoastRun wheel = set.runs[i];
+    set.runs[i].wheel.reset();
+    wheel.drum.reset();
+    wheel.id = "wheel_" + std::to_string(++with_wheel) + ".csv";
+    if (with_wheel <= count) set.runs.push_back(wheel);
+  }
+  return set;
+}
+
+void slow_down(CoastRun& run, double factor) {
+  for (double& time_s : run.wheel->time_s) time_s /= factor;
+}
+
+}  // namespace
+
+TEST_CASE("of two runs of the lifted wheel that differ, both are named with their ratio", "[fast]") {
+  for (const double factor : {1.25, 1.6, 1.0 / 1.6}) {
+    CoastSet set = make_wheel_runs(2);
+    CHECK(fit_drum_coastdown(set).doubts.empty());
+    slow_down(set.runs.back(), factor);
+    const DrumCoastdownFit fit = fit_drum_coastdown(set);
+    REQUIRE(fit.doubts.size() == 1);
+    CHECK(fit.doubts[0].runs == std::vector<std::string>{"wheel_1.csv", "wheel_2.csv"});
+    CHECK(fit.doubts[0].relative == Approx(factor - 1.0).margin(0.08));
+    CHECK_THAT(fit.warnings.front(), Contains("times as fast in the second"));
+    CHECK(fit.others == nullptr);
+  }
+}
+
+TEST_CASE("of several runs of the lifted wheel the odd one is named and set aside", "[fast]") {
+  CoastSet set = make_wheel_runs(4);
+  slow_down(set.runs.back(), 1.3);
+  const DrumCoastdownFit fit = fit_drum_coastdown(set);
+  REQUIRE(fit.doubts.size() == 1);
+  CHECK(fit.doubts[0].runs == std::vector<std::string>{"wheel_4.csv"});
+  CHECK_THAT(fit.warnings.front(), Contains("were its bearings as warm?"));
+  CHECK(fit.others != nullptr);
+}
+
+TEST_CASE("runs of the lifted wheel that scatter as usual are not doubted") {
+  int doubted = 0, sets = 0;
+  for (std::uint64_t seed = 100; seed < 130; ++seed) {
+    for (const std::size_t count : {2u, 4u}) {
+      ++sets;
+      for (const RunDoubt& doubt : fit_drum_coastdown(make_wheel_runs(count, seed)).doubts) {
+        doubted += doubt.text.find("the lifted wheel") != std::string::npos ? 1 : 0;
+      }
+    }
+  }
+  INFO(doubted << " of " << sets);
+  CHECK(doubted <= 1);
+}
+
+TEST_CASE("runs of the lifted wheel in m/s are named where they reach no speed that is asked for", "[fast]") {
+  CoastSet set = make_wheel_runs(2);
+  for (CoastRun& run : set.runs) {
+    if (!run.wheel.has_value()) continue;
+    for (double& speed_m_s : run.wheel->speed_m_s) speed_m_s /= 3.6;
+  }
+  set.speeds_m_s = {60.0 / 3.6, 80.0 / 3.6};
+  CHECK_THROWS_WITH(fit_drum_coastdown(set), Contains("The speeds of the lifted wheel runs are") &&
+                                                 Contains("is their speed_km_h in m/s?") &&
+                                                 !Contains("the loaded runs are"));
+}
