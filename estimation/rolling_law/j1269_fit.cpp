@@ -90,7 +90,7 @@ void put_multipoint_coefficients(MultipointFit& fit) {
   }
 }
 
-void warn_of_multipoint(MultipointFit& fit) {
+void warn_of_multipoint(const Eigen::MatrixXd& design, MultipointFit& fit) {
   constexpr double kUnlikely = 0.01;
   if (fit.statistics.freedom == 0) {
     fit.warnings.push_back(
@@ -102,7 +102,7 @@ void warn_of_multipoint(MultipointFit& fit) {
         "lack of fit: the points leave the law by more than repeated points scatter (F = {:.3g}, p = {:.2g})", lack->F,
         lack->p));
   }
-  if (const auto doubt = doubt_largest_residual(fit.points)) fit.warnings.push_back(*doubt);
+  if (const auto doubt = doubt_largest_residual(fit.points, fit.statistics, design)) fit.warnings.push_back(*doubt);
   if (std::abs(fit.speed_m_s / kReferenceSpeed_m_s - 1.0) > 0.02) {
     fit.warnings.push_back(
         fmt::format("the speed is {:.1f} km/h, and that of SAE J1269 is 80 km/h", kKmhPerMs * fit.speed_m_s));
@@ -139,7 +139,7 @@ MultipointFit fit_multipoint(const std::vector<RollingPoint>& points, Multipoint
   fit.statistics = calc_statistics(fit.points, static_cast<int>(columns));
   fit.covariance = std::pow(fit.statistics.residual_sd_N, 2) * inverse;
   put_multipoint_coefficients(fit);
-  warn_of_multipoint(fit);
+  warn_of_multipoint(design, fit);
   return fit;
 }
 

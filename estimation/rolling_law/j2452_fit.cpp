@@ -189,7 +189,7 @@ void put_coefficients(const Vector5& found, J2452Fit& fit) {
   fit.law = {found(0), found(1), fit.coefficients[2].value, fit.coefficients[3].value, fit.coefficients[4].value};
 }
 
-void warn_of_j2452(J2452Fit& fit) {
+void warn_of_j2452(const Eigen::MatrixXd& jacobian, J2452Fit& fit) {
   constexpr double kUnlikely = 0.01;
   const auto& lack = fit.statistics.lack_of_fit;
   if (lack.has_value() && lack->p < kUnlikely) {
@@ -198,7 +198,7 @@ void warn_of_j2452(J2452Fit& fit) {
         "standard deviations hold that, but the law is not exact over this range",
         lack->F, lack->p));
   }
-  if (const auto doubt = doubt_largest_residual(fit.points)) fit.warnings.push_back(*doubt);
+  if (const auto doubt = doubt_largest_residual(fit.points, fit.statistics, jacobian)) fit.warnings.push_back(*doubt);
 }
 
 }  // namespace
@@ -252,7 +252,7 @@ J2452Fit fit_j2452(const std::vector<RollingPoint>& points) {
   const double scaled_sd = fit.statistics.residual_sd_N / fit.force_0_N;
   fit.covariance = scaled_sd * scaled_sd * inverse;
   put_coefficients(found, fit);
-  warn_of_j2452(fit);
+  warn_of_j2452(jacobian, fit);
   return fit;
 }
 

@@ -74,24 +74,122 @@ void put_lack_of_fit(const std::vector<FittedPoint>& points, double squares_N2, 
   statistics.lack_of_fit = lack;
 }
 
-/// Each residual over the standard deviation that the other points give it (externally studentized); 0 where that is
-/// not known.
-/// Equation  t_i = |e_i|/(s_i sqrt(1 - h_i)),  s_i^2 = (S - e_i^2/(1 - h_i))/(n - p - 1)
-std::vector<double> studentize(const std::vector<FittedPoint>& points) {
-  double squares_N2 = 0.0, coefficients = 0.0;
-  for (const FittedPoint& point : points) {
-    squares_N2 += std::pow(point.residual_N(), 2);
-    coefficients += point.leverage;
+/// Residuals of a fit with so many coefficients, and the diagonal of its hat matrix.
+struct Residuals {
+  Eigen::VectorXd values_N;
+  Eigen::VectorXd leverages;
+  double coefficients = 0.0;
+};
+
+/// The point whose residual is largest over the standard deviation that the other points give it, and the probability
+/// that one of so many normal residuals is as large.
+struct OddPoint {
+  std::size_t place = 0;
+  double chance = 1.0;
+};
+
+/// Equation  t_i = |e_i|/(s_i sqrt(1 - h_i)),  s_i^2 = (S - e_i^2/(1 - h_i))/(n - p - 1) (externally studentized);
+///           chance min(1, n P(|t(n - p - 1)| > t_i)) (Bonferroni)
+OddPoint find_odd_point(const Residuals& residuals) {
+  const double squares_N2 = residuals.values_N.squaredNorm();
+  const auto count = static_cast<double>(residuals.values_N.size());
+  const double freedom = count - residuals.coefficients - 1.0;
+  OddPoint odd;
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < residuals.values_N.size() && freedom >= 1.0; ++i) {
+    const double left = 1.0 - residuals.leverages(i);
+    const double others_N2 = squares_N2 - std::pow(residuals.values_N(i), 2) / left;
+    if (left <= 1e-6 || others_N2 <= 0.0) continue;
+    const double student = std::abs(residuals.values_N(i)) / std::sqrt(others_N2 / freedom * left);
+    if (student <= largest) continue;
+    largest = student;
+    odd.place = static_cast<std::size_t>(i);
   }
-  const double freedom = static_cast<double>(points.size()) - std::round(coefficients) - 1.0;
-  std::vector<double> students;
-  for (const FittedPoint& point : points) {
-    const double left = 1.0 - point.leverage;
-    const double others_N2 = squares_N2 - std::pow(point.residual_N(), 2) / left;
-    const bool is_known = freedom >= 1.0 && left > 1e-6 && others_N2 > 0.0;
-    students.push_back(is_known ? std::abs(point.residual_N()) / std::sqrt(others_N2 / freedom * left) : 0.0);
+  if (largest <= 0.0) return odd;
+  const boost::math::students_t chance(freedom);
+  odd.chance = std::min(1.0, 2.0 * count * boost::math::cdf(boost::math::complement(chance, largest)));
+  return odd;
+}
+
+/// Terms that a law would have beside its own, if tires did not keep to it: the force times squares and products of
+/// the logarithms of pressure and load and of the speed, and its third and fourth power. Columns of unit length.
+Eigen::MatrixXd make_further_terms(const std::vector<FittedPoint>& points) {
+  const auto rows = static_cast<Eigen::Index>(points.size());
+  Eigen::VectorXd force(rows), pressure(rows), load(rows), speed(rows);
+  std::vector<double> speeds_m_s;
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const FittedPoint& at = points[static_cast<std::size_t>(i)];
+    force(i) = at.fitted_N;
+    pressure(i) = std::log(at.point.pressure_Pa);
+    load(i) = std::log(at.point.load_N);
+    speed(i) = at.point.speed_m_s;
+    speeds_m_s.push_back(at.point.speed_m_s);
   }
-  return students;
+  const Eigen::ArrayXd a = pressure.array() - pressure.mean();
+  const Eigen::ArrayXd b = load.array() - load.mean();
+  const Eigen::ArrayXd u = speed.array() / speed.mean() - 1.0;
+  std::vector<Eigen::VectorXd> terms{a * a, b * b, a * b};
+  if (count_levels(speeds_m_s) > 1) terms.insert(terms.end(), {a * u, b * u, u.cube(), u.square().square()});
+  Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(terms.size()));
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    columns.col(static_cast<Eigen::Index>(i)) = force.cwiseProduct(terms[i]).normalized();
+  }
+  return columns;
+}
+
+/// A law against one with further terms.
+struct FurtherFit {
+  Residuals residuals;  // of the one with further terms
+  double chance = 1.0;  // that points of the law show as much of them
+};
+
+/// Absent where the points leave too little freedom beside further terms.
+/// Equation  F = [(S - S_f) / k] / (S_f / (n - p - k)), F distribution of k and n - p - k degrees of freedom
+/// Symbols   S, S_f sums of squared residuals without and with the k further terms; n points, p coefficients
+std::optional<FurtherFit> fit_further_terms(const std::vector<FittedPoint>& points, const Eigen::MatrixXd& jacobian) {
+  constexpr double kLeastShare = 0.02;  // Assumed: of a term of unit length, what is neither the law nor another term
+  constexpr double kLeastFreedom = 3.0;  // Assumed: with less the F test finds next to nothing
+  const Eigen::Index rows = jacobian.rows();
+  Eigen::VectorXd left_N(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) left_N(i) = points[static_cast<std::size_t>(i)].residual_N();
+  const Eigen::MatrixXd own = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(jacobian).householderQ() *
+                              Eigen::MatrixXd::Identity(rows, jacobian.cols());
+  const Eigen::MatrixXd further = make_further_terms(points);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(further - own * (own.transpose() * further));
+  const Eigen::Index terms = (qr.matrixR().diagonal().array().abs() > kLeastShare).count();
+  FurtherFit found;
+  found.residuals.coefficients = static_cast<double>(jacobian.cols() + terms);
+  const double freedom = static_cast<double>(rows) - found.residuals.coefficients;
+  if (terms < 1 || freedom < kLeastFreedom) return std::nullopt;
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, terms);
+  const double squares_N2 = left_N.squaredNorm();
+  left_N -= own * (own.transpose() * left_N);  // what convergence left
+  found.residuals.values_N = left_N - q * (q.transpose() * left_N);
+  found.residuals.leverages = own.rowwise().squaredNorm() + q.rowwise().squaredNorm();
+  const double rest_N2 = found.residuals.values_N.squaredNorm();
+  if (!(rest_N2 > 0.0)) return std::nullopt;
+  const double F = std::max(0.0, squares_N2 - rest_N2) / static_cast<double>(terms) / (rest_N2 / freedom);
+  const boost::math::fisher_f chance(static_cast<double>(terms), freedom);
+  found.chance = boost::math::cdf(boost::math::complement(chance, F));
+  return found;
+}
+
+/// The point that stands out from the law, and still does where the law may bend.
+std::optional<std::size_t> find_point_that_stands_out(const std::vector<FittedPoint>& points, double coefficients,
+                                                      const std::optional<FurtherFit>& further) {
+  constexpr double kUnlikelyOdd = 0.005;
+  constexpr double kUnlikelyStill = 0.05;
+  Residuals residuals{Eigen::VectorXd(points.size()), Eigen::VectorXd(points.size()), coefficients};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    residuals.values_N(static_cast<Eigen::Index>(i)) = points[i].residual_N();
+    residuals.leverages(static_cast<Eigen::Index>(i)) = points[i].leverage;
+  }
+  const OddPoint odd = find_odd_point(residuals);
+  if (odd.chance >= kUnlikelyOdd) return std::nullopt;
+  if (!further.has_value()) return odd.place;
+  const OddPoint still = find_odd_point(further->residuals);
+  if (still.place != odd.place || still.chance >= kUnlikelyStill) return std::nullopt;
+  return odd.place;
 }
 
 }  // namespace
@@ -115,17 +213,18 @@ std::string explain_no_lack_of_fit(int repeated_points) {
                               : "not tested: repeated points do not scatter, or leave the law no freedom";
 }
 
-std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>& points) {
+std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>& points,
+                                                  const RegressionStatistics& statistics,
+                                                  const Eigen::MatrixXd& jacobian) {
   constexpr double kMisses = 0.03;
-  constexpr double kStandsOut = 8.0;  // Assumed: of Student's t; of a few dozen points by chance less than 5
+  constexpr double kUnlikelyMisfit = 0.002;
+  if (statistics.freedom < 1 || statistics.largest_residual <= kMisses) return std::nullopt;
   const auto share = [](const FittedPoint& at) { return std::abs(at.residual_N() / at.point.force_N); };
   const auto worst = std::max_element(points.begin(), points.end(),
                                       [&](const auto& one, const auto& other) { return share(one) < share(other); });
-  if (worst == points.end() || share(*worst) <= kMisses) return std::nullopt;
-  const std::vector<double> students = studentize(points);
-  const auto odd = std::max_element(students.begin(), students.end());
-  if (odd != students.end() && *odd > kStandsOut) {
-    const FittedPoint& point = points[static_cast<std::size_t>(odd - students.begin())];
+  const std::optional<FurtherFit> further = fit_further_terms(points, jacobian);
+  if (const auto odd = find_point_that_stands_out(points, static_cast<double>(jacobian.cols()), further)) {
+    const FittedPoint& point = points[*odd];
     return fmt::format(
         "{} stands out: it is {:.0f} % off the law of the other points, and bends the law of all, which misses points "
         "by up to {:.0f} %. Is its value typed right?",
@@ -133,6 +232,8 @@ std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>
                                      (point.point.force_N - point.residual_N() / (1.0 - point.leverage)),
         1e2 * share(*worst));
   }
+  const bool lacks_fit = statistics.lack_of_fit.has_value() && statistics.lack_of_fit->p < kUnlikelyMisfit;
+  if (further.has_value() && further->chance >= kUnlikelyMisfit && !lacks_fit) return std::nullopt;
   return fmt::format(
       "the law misses {} by {:.1f} %: it does not describe this tire over this range, or a point is wrong",
       name_point(worst->point), 1e2 * share(*worst));

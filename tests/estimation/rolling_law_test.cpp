@@ -7,6 +7,7 @@
 #include "estimation/rolling_law/rolling_output.h"
 #include "scenarios/common/speed_trace.h"
 #include "sim/core/error.h"
+#include "sim/core/random.h"
 #include "tests/support/run_program.h"
 
 using namespace rollrig;
@@ -290,6 +291,60 @@ TEST_CASE("a point that the law misses is named by its line", "[fast]") {
   const estimation::J2452Fit fit = estimation::fit_j2452(points);
   REQUIRE(fit.warnings.size() == 1);
   CHECK_THAT(fit.warnings[0], Catch::Contains("line 9 (95 km/h, 4000 N, 200 kPa) stands out: it is 30 % off"));
+}
+
+namespace {
+
+/// Seven conditions of a passenger car's tire at six speeds, with normal noise.
+std::vector<RollingPoint> make_noisy_points(double level, double noise_sd_N, std::uint64_t seed) {
+  RandomStream random(seed, "noise of points");
+  const J2452Law law{-0.4, 0.92, level, level / 1200.0, level / 200000.0};
+  std::vector<RollingPoint> points;
+  for (const auto& [load_N, pressure_kPa] :
+       {std::pair(1971.0, 250.0), std::pair(3285.0, 250.0), std::pair(4599.0, 250.0), std::pair(5913.0, 250.0),
+        std::pair(4599.0, 210.0), std::pair(4599.0, 290.0), std::pair(1971.0, 190.0)}) {
+    for (const double km_h : {115.0, 95.0, 75.0, 55.0, 35.0, 15.0}) {
+      RollingPoint point{km_h / 3.6, load_N, 1e3 * pressure_kPa, 0.0, static_cast<int>(points.size()) + 2};
+      point.force_N = law.calc_force_N(point.pressure_Pa, load_N, point.speed_m_s) + noise_sd_N * random.normal();
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("points of the law with noise are not doubted, though single ones are missed by 3 %", "[fast]") {
+  // RRc 3.7 and 6.8 N/kN; at the lowest load 0.3 N are 2 % of the force
+  for (const auto& [level, noise_sd_N] : {std::pair(0.06, 0.12), std::pair(0.11, 0.12), std::pair(0.11, 0.3)}) {
+    int doubted = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      if (!estimation::fit_j2452(make_noisy_points(level, noise_sd_N, seed)).warnings.empty()) ++doubted;
+    }
+    INFO(level << ", " << noise_sd_N << " N: " << doubted);
+    CHECK(doubted <= 2);  // expected: less than one
+  }
+}
+
+TEST_CASE("amid noise, a point that is 5 % off stands out, and a law that does not bend as the tire is doubted",
+          "[fast]") {
+  int named = 0, misfits = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    std::vector<RollingPoint> points = make_noisy_points(0.06, 0.12, seed);
+    std::vector<RollingPoint> bent = points;
+    points[14].force_N *= 1.05;
+    for (const std::string& warning : estimation::fit_j2452(points).warnings) {
+      if (warning.find("line 16 (75 km/h, 4599 N, 250 kPa) stands out") != std::string::npos) ++named;
+    }
+    for (RollingPoint& point : bent) {
+      point.force_N *= 1.0 + 0.08 * std::log(point.load_N / 4000.0) * (3.6 * point.speed_m_s - 65.0) / 50.0;
+    }
+    for (const std::string& warning : estimation::fit_j2452(bent).warnings) {
+      if (warning.find("the law misses line") != std::string::npos) ++misfits;
+    }
+  }
+  CHECK(named >= 18);
+  CHECK(misfits >= 19);
 }
 
 TEST_CASE("where repeated points are copies, the test of lack of fit does not say that none is repeated", "[fast]") {
