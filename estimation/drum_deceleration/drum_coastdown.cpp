@@ -361,7 +361,8 @@ std::string explain_missed_speeds(const CoastSet& set, const DrumCoastdownFit& f
   std::string text;
   const std::vector<KindOfRuns> kinds = list_kinds_of_runs(set, fit);
   for (const KindOfRuns& kind : kinds) {
-    if (kind.runs == 0 || kind.passes_any) continue;
+    const bool is_needed = kind.body == CoastBody::kDrum || fit.mass_ratio > 0.0;
+    if (!is_needed || kind.runs == 0 || kind.passes_any) continue;
     text += fmt::format(". The speeds of the {} run{} are {:.1f} to {:.1f} km/h, those asked for {:g} to {:g} km/h",
                         kind.name, kind.runs == 1 ? "" : "s", kKmhPerMs * kind.high_m_s, kKmhPerMs * kind.low_m_s,
                         kKmhPerMs * *lowest, kKmhPerMs * *highest);
