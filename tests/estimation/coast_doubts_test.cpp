@@ -223,7 +223,7 @@ CoastSet make_wheel_runs(std::size_t count, std::uint64_t seed = 3) {
   return set;
 }
 
-void slow_down(CoastRun& run, double factor) {
+void slow_down_wheel(CoastRun& run, double factor) {
   for (double& time_s : run.wheel->time_s) time_s /= factor;
 }
 
@@ -233,7 +233,7 @@ TEST_CASE("of two runs of the lifted wheel that differ, both are named with thei
   for (const double factor : {1.25, 1.6, 1.0 / 1.6}) {
     CoastSet set = make_wheel_runs(2);
     CHECK(fit_drum_coastdown(set).doubts.empty());
-    slow_down(set.runs.back(), factor);
+    slow_down_wheel(set.runs.back(), factor);
     const DrumCoastdownFit fit = fit_drum_coastdown(set);
     REQUIRE(fit.doubts.size() == 1);
     CHECK(fit.doubts[0].runs == std::vector<std::string>{"wheel_1.csv", "wheel_2.csv"});
@@ -245,7 +245,7 @@ TEST_CASE("of two runs of the lifted wheel that differ, both are named with thei
 
 TEST_CASE("of several runs of the lifted wheel the odd one is named and set aside", "[fast]") {
   CoastSet set = make_wheel_runs(4);
-  slow_down(set.runs.back(), 1.3);
+  slow_down_wheel(set.runs.back(), 1.3);
   const DrumCoastdownFit fit = fit_drum_coastdown(set);
   REQUIRE(fit.doubts.size() == 1);
   CHECK(fit.doubts[0].runs == std::vector<std::string>{"wheel_4.csv"});
