@@ -44,12 +44,12 @@ struct RoadLoadPoint {
 
 /// Scatter that the fit found. Those that the data cannot decide are absent.
 struct RoadLoadScatter {
-  std::optional<double> sample_sd_m_s;        // of one speed sample, within cells of a trace
-  std::optional<double> speed_sd_m_s;         // of one sample (trace) or of one passing (bins)
-  std::optional<double> gust_N_sqrt_s;        // white force along a run: sd of its mean over T is this / sqrt(T)
-  std::optional<double> run_force_N;          // force from run to run
-  std::optional<double> run_speed_N_s_per_m;  // force in proportion to speed, from run to run
-  std::optional<double> session_force_N;      // force from session to session
+  std::optional<double> sample_sd_m_s;             // of one speed sample, within cells of a trace
+  std::optional<double> speed_sd_m_s;              // of one sample (trace) or of one passing (bins)
+  std::optional<double> gust_N_sqrt_s;             // white force along a run: sd of its mean over T is this / sqrt(T)
+  std::optional<double> run_force_N;               // force from run to run
+  std::optional<double> run_speed_N_s_per_m;       // force in proportion to speed, from run to run
+  std::optional<double> session_force_N;           // force from session to session
   std::optional<double> session_drag_N_s2_per_m2;  // force in proportion to the square of speed, likewise
 };
 

@@ -196,8 +196,8 @@ std::optional<std::string> doubt_sessions(const CoastdownData& data, const std::
   const std::optional<SessionDifference> found = compare_sessions(data, deviations);
   if (!found.has_value() || found->chance >= kUnlikely) return std::nullopt;
   return fmt::format(
-      "the sessions differ by a standard deviation of {:.1f} % of the force, more than their noise explains; where they "
-      "cover different speeds this bends the curve",
+      "the sessions differ by a standard deviation of {:.1f} % of the force, more than their noise explains; where "
+      "they cover different speeds this bends the curve",
       100.0 * found->sd);
 }
 

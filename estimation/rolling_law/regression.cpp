@@ -174,11 +174,12 @@ std::optional<FurtherFit> fit_further_terms(const std::vector<FittedPoint>& poin
   return found;
 }
 
-/// The point that stands out from the law, and still does where the law may bend.
+/// The point that stands out from the law, and still does where the law may bend; by far, whatever the bend.
 std::optional<std::size_t> find_point_that_stands_out(const std::vector<FittedPoint>& points, double coefficients,
                                                       const std::optional<FurtherFit>& further) {
   constexpr double kUnlikelyOdd = 0.005;
   constexpr double kUnlikelyStill = 0.05;
+  constexpr double kByFar = 1e-5;  // Assumed: t above 8 of a few dozen points, which no bend of a law reaches
   Residuals residuals{Eigen::VectorXd(points.size()), Eigen::VectorXd(points.size()), coefficients};
   for (std::size_t i = 0; i < points.size(); ++i) {
     residuals.values_N(static_cast<Eigen::Index>(i)) = points[i].residual_N();
@@ -186,7 +187,7 @@ std::optional<std::size_t> find_point_that_stands_out(const std::vector<FittedPo
   }
   const OddPoint odd = find_odd_point(residuals);
   if (odd.chance >= kUnlikelyOdd) return std::nullopt;
-  if (!further.has_value()) return odd.place;
+  if (!further.has_value() || odd.chance < kByFar) return odd.place;
   const OddPoint still = find_odd_point(further->residuals);
   if (still.place != odd.place || still.chance >= kUnlikelyStill) return std::nullopt;
   return odd.place;

@@ -49,11 +49,11 @@ RegressionStatistics calc_statistics(const std::vector<FittedPoint>& points, int
 /// Why there is no test of lack of fit.
 std::string explain_no_lack_of_fit(int repeated_points);
 
-/// A warning where a law misses a point by more than 3 % of its force, and by more than the points scatter. It names the
-/// point that stands out from the others, which need not be the one that is missed most. The law does not fit where an F
-/// test finds further terms of pressure, load and speed, or repeated points show a lack of fit (p < 0.002). Points too
-/// few for the F test do not tell their scatter, and 3 % decides alone.
-/// Assumed: 3 %, several times what repeated tests differ by; that one of the points stands out by chance in 1 of 200 sets
+/// A warning where a law misses a point by more than 3 % of its force, and by more than the points scatter. It names
+/// the point that stands out from the others, which need not be the one that is missed most. The law does not fit where
+/// an F test finds further terms of pressure, load and speed, or repeated points show a lack of fit (p < 0.002). Points
+/// too few for the F test do not tell their scatter, and 3 % decides alone.
+/// Assumed: 3 %, several times what repeated tests differ by; a point that stands out by chance in 1 of 200 sets
 std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>& points,
                                                   const RegressionStatistics& statistics,
                                                   const Eigen::MatrixXd& jacobian);
