@@ -94,9 +94,6 @@ Table make_scatter(const RoadLoadFit& fit, const estimation::RoadLoadChecks& che
   if (fit.scatter.session_force_N.has_value()) {
     add("scatter from session to session", fit.scatter.session_force_N, unit);
   }
-  if (fit.scatter.session_drag_N_s2_per_m2.has_value()) {
-    add("  in proportion to the square of speed", fit.scatter.session_drag_N_s2_per_m2, unit + " s2/m2");
-  }
   if (fit.slope.has_value()) {
     list.rows.push_back({"slope, from the headings", fmt::format("{:.3f} +- {:.3f} % uphill in +",
                                                                  100.0 * *fit.slope + 0.0, 100.0 * fit.slope_sd)});

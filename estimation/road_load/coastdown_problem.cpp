@@ -44,13 +44,12 @@ MatrixXd make_gust_pattern(const FitRun& run, const std::vector<double>& duratio
   return pattern;
 }
 
-/// The blocks of several runs as one, with a force and a drag that they all share.
+/// The blocks of several runs as one, with a force that they all share.
 LinearBlock join(const std::vector<LinearBlock>& parts) {
   Index n = 0;
   for (const LinearBlock& part : parts) n += part.y.size();
   LinearBlock joined{VectorXd(n), MatrixXd(n, parts.front().X.cols()), {}};
   joined.patterns.assign(kComponents, MatrixXd::Zero(n, n));
-  VectorXd square_of_speed(n);
   Index row = 0;
   for (const LinearBlock& part : parts) {
     const Index rows = part.y.size();
@@ -59,11 +58,9 @@ LinearBlock join(const std::vector<LinearBlock>& parts) {
     for (std::size_t i = 0; i < part.patterns.size(); ++i) {
       joined.patterns[i].block(row, row, rows, rows) = part.patterns[i];
     }
-    square_of_speed.segment(row, rows) = part.patterns[kRunSpeed].diagonal();
     row += rows;
   }
-  joined.patterns[kSessionForce].setOnes();
-  joined.patterns[kSessionDrag] = square_of_speed * square_of_speed.transpose();
+  joined.patterns[kSession].setOnes();
   return joined;
 }
 
@@ -155,9 +152,9 @@ LinearBlock linearize(const CoastdownProblem& problem, const FitRun& run, const 
     const double measured = impulse / durations[static_cast<std::size_t>(k)] * (1.0 - std::min(relative_variance, 0.5));
     block.y(k) = measured - force + block.X.row(k).dot(coefficients);
   }
-  // of the session's components, nothing: a run alone in its session, or the only session
+  // of the session's component, nothing: a run alone in its session, or the only session
   block.patterns = {passing, make_gust_pattern(run, durations), MatrixXd::Ones(n, n), speed * speed.transpose(),
-                    MatrixXd::Zero(n, n), MatrixXd::Zero(n, n)};
+                    MatrixXd::Zero(n, n)};
   return block;
 }
 

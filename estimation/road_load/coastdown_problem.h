@@ -11,17 +11,9 @@
 namespace rollrig::estimation {
 
 /// Kinds of scatter: of passing times, along a run, from run to run (constant; in proportion to speed), from
-/// session to session (constant; in proportion to the square of speed, as of another drag or air).
-enum CoastdownScatter : Eigen::Index {
-  kPassing,
-  kGust,
-  kRunForce,
-  kRunSpeed,
-  kSessionForce,
-  kSessionDrag,
-  kComponents
-};
-constexpr double kRunSpeedScale_m_s = 20.0;  // makes the components of runs, and those of sessions, alike in size
+/// session to session.
+enum CoastdownScatter : Eigen::Index { kPassing, kGust, kRunForce, kRunSpeed, kSession, kComponents };
+constexpr double kRunSpeedScale_m_s = 20.0;  // makes the two run components alike in size
 
 /// The problem in one place: runs, model, and the sessions behind the wind columns.
 struct CoastdownProblem {

@@ -69,12 +69,8 @@ void put_scatter(const CoastdownProblem& problem, const LinearEstimate& linear, 
   fit.scatter.gust_N_sqrt_s = sd(kGust);
   fit.scatter.run_force_N = sd(kRunForce);
   fit.scatter.run_speed_N_s_per_m = sd(kRunSpeed);
-  fit.scatter.session_force_N = sd(kSessionForce);
-  fit.scatter.session_drag_N_s2_per_m2 = sd(kSessionDrag);
+  fit.scatter.session_force_N = sd(kSession);
   if (fit.scatter.run_speed_N_s_per_m.has_value()) *fit.scatter.run_speed_N_s_per_m /= kRunSpeedScale_m_s;
-  if (fit.scatter.session_drag_N_s2_per_m2.has_value()) {
-    *fit.scatter.session_drag_N_s2_per_m2 /= kRunSpeedScale_m_s * kRunSpeedScale_m_s;
-  }
   double squares = 0.0;
   double freedom = 0.0;
   for (const FitRun& run : problem.runs) {
@@ -233,7 +229,14 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
         "too few runs to tell how they differ from run to run: the standard deviations are those of the noise along a "
         "run, and too small");
   }
-  if (const auto doubt = doubt_sessions(data, find_run_deviations(fit))) fit.warnings.push_back(*doubt);
+  constexpr double kUnlikely = 0.01;
+  if (fit.scatter.session_force_N.value_or(0.0) > 0.0 && find_session_chance(data, fit).value_or(1.0) < kUnlikely) {
+    const double middle = 0.5 * (fit.high_m_s + fit.low_m_s);
+    fit.warnings.push_back(fmt::format(
+        "the sessions differ by a standard deviation of {:.1f} % of the force at {:.0f} km/h, more than their noise "
+        "explains; where they cover different speeds this bends the curve",
+        100.0 * *fit.scatter.session_force_N / fit.force_N(middle), 3.6 * middle));
+  }
   doubt_drag_area(options, fit);
   if (!options.mass_kg.has_value()) {
     fit.warnings.push_back("no mass given: A, B and C are per unit of effective mass");

@@ -85,8 +85,7 @@ Json scatter_json(const RoadLoadFit& fit) {
           {"gust_" + unit + "_sqrt_s", number_or_null(fit.scatter.gust_N_sqrt_s)},
           {"run_to_run_" + unit, number_or_null(fit.scatter.run_force_N)},
           {"run_to_run_" + unit + "_s_per_m", number_or_null(fit.scatter.run_speed_N_s_per_m)},
-          {"session_to_session_" + unit, number_or_null(fit.scatter.session_force_N)},
-          {"session_to_session_" + unit + "_s2_per_m2", number_or_null(fit.scatter.session_drag_N_s2_per_m2)}};
+          {"session_to_session_" + unit, number_or_null(fit.scatter.session_force_N)}};
 }
 
 Json options_json(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {

@@ -253,7 +253,7 @@ TEST_CASE("of several runs of the lifted wheel the odd one is named and set asid
   CHECK(fit.others != nullptr);
 }
 
-TEST_CASE("runs of the lifted wheel that scatter as usual are not doubted") {
+TEST_CASE("runs of the lifted wheel that scatter as usual are not doubted", "[slow]") {
   int doubted = 0, sets = 0;
   for (std::uint64_t seed = 100; seed < 130; ++seed) {
     for (const std::size_t count : {2u, 4u}) {

@@ -1,6 +1,5 @@
 #include "estimation/road_load/road_load_checks.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -193,38 +192,6 @@ Doubted count_doubted(int sets) {
 }
 
 }  // namespace
-
-TEST_CASE("sessions a fifth apart at every speed: the difference is said, and the intervals hold both", "[fast]") {
-  tests::CoastdownStudy study;
-  study.pairs = 3;
-  study.run_force_sd_N = 1.0;
-  CoastdownData data = tests::simulate_coastdowns(study, 1);
-  tests::CoastdownStudy high = study;
-  high.load = {1.2 * study.load.A_N, 1.2 * study.load.B_N_s_per_m, 1.2 * study.load.C_N_s2_per_m2};
-  for (auto& run : tests::simulate_coastdowns(high, 2).runs) {
-    data.runs.push_back(run);
-    data.runs.back().session = "pm";
-  }
-  estimation::RoadLoadFitOptions options;
-  options.mass_kg = study.mass_kg;
-  const estimation::RoadLoadFit fit = estimation::fit_road_load(data, options);
-  // 1 and 1.2 times the same: 0.1414 about a mean of 1.1
-  const auto difference = estimation::compare_sessions(data, estimation::find_run_deviations(fit));
-  REQUIRE(difference.has_value());
-  CHECK(difference->sd == Approx(0.1414 / 1.1).epsilon(0.1));
-  CHECK(difference->chance < 1e-6);
-  const auto warning = std::find_if(fit.warnings.begin(), fit.warnings.end(), [](const std::string& text) {
-    return text.find("the sessions differ by a standard deviation of 1") != std::string::npos;
-  });
-  CHECK(warning != fit.warnings.end());
-  const double of_low[3] = {study.load.A_N, study.load.B_N_s_per_m, study.load.C_N_s2_per_m2};
-  for (const int i : {0, 2}) {
-    const auto [lower, upper] = fit.interval_95(i);
-    INFO(i << ": " << lower << " to " << upper << ", sessions " << of_low[i] << " and " << 1.2 * of_low[i]);
-    CHECK(lower <= of_low[i]);
-    CHECK(upper >= 1.2 * of_low[i]);
-  }
-}
 
 TEST_CASE("sessions that do not differ are hardly ever doubted, those 5 % apart mostly", "[slow]") {
   const Doubted doubted = count_doubted(25);
