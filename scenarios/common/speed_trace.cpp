@@ -19,28 +19,36 @@ double calc_distance_m(const std::vector<double>& time_s, const std::vector<doub
   return distance_m;
 }
 
-std::optional<std::string> doubt_acceleration(const SpeedTrace& trace) {
-  constexpr double kMost_m_s2 = 10.0;
-  double most_m_s2 = 0.0;
+namespace {
+
+/// The strongest acceleration or braking of a cycle, and when it begins.
+struct StrongestRate {
+  double rate_m_s2 = 0.0;
   double at_s = 0.0;
+};
+
+StrongestRate find_strongest_rate(const SpeedTrace& trace) {
+  StrongestRate strongest;
   for (std::size_t i = 1; i < trace.time_s.size(); ++i) {
     const double rate_m_s2 = (trace.speed_m_s[i] - trace.speed_m_s[i - 1]) / (trace.time_s[i] - trace.time_s[i - 1]);
-    if (std::abs(rate_m_s2) <= std::abs(most_m_s2)) continue;
-    most_m_s2 = rate_m_s2;
-    at_s = trace.time_s[i - 1];
+    if (std::abs(rate_m_s2) > std::abs(strongest.rate_m_s2)) strongest = {rate_m_s2, trace.time_s[i - 1]};
   }
-  if (std::abs(most_m_s2) <= kMost_m_s2) return std::nullopt;
+  return strongest;
+}
+
+}  // namespace
+
+std::optional<std::string> doubt_acceleration(const SpeedTrace& trace) {
+  constexpr double kMost_m_s2 = 10.0;
+  const StrongestRate strongest = find_strongest_rate(trace);
+  if (std::abs(strongest.rate_m_s2) <= kMost_m_s2) return std::nullopt;
   return fmt::format("cycle '{}' asks for {:.3g} m/s2 from time_s = {:g} on, which no car does: are its times in s?",
-                     trace.name, most_m_s2, at_s);
+                     trace.name, strongest.rate_m_s2, strongest.at_s);
 }
 
 std::optional<std::string> doubt_slowness(const SpeedTrace& trace) {
   constexpr double kLeast_m_s2 = 0.02, kMoves_m_s = 5.0;
-  double most_m_s2 = 0.0;
-  for (std::size_t i = 1; i < trace.time_s.size(); ++i) {
-    const double rate_m_s2 = (trace.speed_m_s[i] - trace.speed_m_s[i - 1]) / (trace.time_s[i] - trace.time_s[i - 1]);
-    most_m_s2 = std::max(most_m_s2, std::abs(rate_m_s2));
-  }
+  const double most_m_s2 = std::abs(find_strongest_rate(trace).rate_m_s2);
   const auto [slowest, fastest] = std::minmax_element(trace.speed_m_s.begin(), trace.speed_m_s.end());
   if (most_m_s2 >= kLeast_m_s2 || *fastest - *slowest < kMoves_m_s) return std::nullopt;
   return fmt::format(

@@ -40,10 +40,6 @@ sim::Recording<double> integrate(sim::OdeSystem<double>& rig, const sim::Program
   return recording;
 }
 
-}  // namespace
-
-namespace {
-
 sim::Recording<double> integrate_with(double tolerance_factor, sim::OdeSystem<double>& rig, const sim::Program& program,
                                       const sim::Progress& progress, Json& statistics) {
   if (has_many_knots(program)) {
