@@ -94,6 +94,9 @@ Table make_scatter(const RoadLoadFit& fit, const estimation::RoadLoadChecks& che
   if (fit.scatter.session_force_N.has_value()) {
     add("scatter from session to session", fit.scatter.session_force_N, unit);
   }
+  if (fit.scatter.session_share.has_value()) {
+    add("scatter from session to session", 100.0 * *fit.scatter.session_share, "% of the force");
+  }
   if (fit.slope.has_value()) {
     list.rows.push_back({"slope, from the headings", fmt::format("{:.3f} +- {:.3f} % uphill in +",
                                                                  100.0 * *fit.slope + 0.0, 100.0 * fit.slope_sd)});

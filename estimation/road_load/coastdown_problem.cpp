@@ -44,8 +44,23 @@ MatrixXd make_gust_pattern(const FitRun& run, const std::vector<double>& duratio
   return pattern;
 }
 
-/// The blocks of several runs as one, with a force that they all share.
-LinearBlock join(const std::vector<LinearBlock>& parts) {
+/// How the scatter of a run's session goes over its bins: the forces of the model over the one at kRunSpeedScale_m_s,
+/// or ones.
+VectorXd make_session_shape(const CoastdownProblem& problem, const FitRun& run, const VectorXd& coefficients) {
+  VectorXd shape = VectorXd::Ones(static_cast<Index>(run.bins.size()));
+  if (problem.session_shape == SessionShape::kConstant) return shape;
+  const double v = kRunSpeedScale_m_s;
+  const double scale_N = coefficients.head(3).dot(Eigen::Vector3d(1.0, v, v * v));
+  for (Index k = 0; k < shape.size(); ++k) {
+    const FitBin& bin = run.bins[static_cast<std::size_t>(k)];
+    const double impulse = problem.model.mass_kg() * (bin.high_m_s - bin.low_m_s);
+    shape(k) = impulse / problem.model.pass(run, bin, coefficients).duration_s / scale_N;
+  }
+  return shape;
+}
+
+/// The blocks of several runs as one, with a force of this shape that they all share.
+LinearBlock join(const std::vector<LinearBlock>& parts, const VectorXd& session_shape) {
   Index n = 0;
   for (const LinearBlock& part : parts) n += part.y.size();
   LinearBlock joined{VectorXd(n), MatrixXd(n, parts.front().X.cols()), {}};
@@ -60,7 +75,7 @@ LinearBlock join(const std::vector<LinearBlock>& parts) {
     }
     row += rows;
   }
-  joined.patterns[kSession].setOnes();
+  joined.patterns[kSession] = session_shape * session_shape.transpose();
   return joined;
 }
 
@@ -100,8 +115,8 @@ CoastdownProblem make_problem(const CoastdownData& data, const RoadLoadFitOption
     if (it != sessions.end()) run.wind_column = 4 + static_cast<int>(it - sessions.begin());
   }
   const Index count = 3 + (uses_headings ? 1 + static_cast<Index>(sessions.size()) : 0);
-  CoastdownProblem problem{
-      std::move(runs), CoastdownModel(mass_kg, uses_headings, count, given_drag(options)), sessions, {}};
+  CoastdownProblem problem{std::move(runs), CoastdownModel(mass_kg, uses_headings, count, given_drag(options)),
+                           sessions, {}};
   group_runs(data, problem);
   return problem;
 }
@@ -208,8 +223,15 @@ std::vector<LinearBlock> linearize_all(const CoastdownProblem& problem, const Ve
   std::vector<LinearBlock> blocks;
   for (const std::vector<std::size_t>& group : problem.groups) {
     std::vector<LinearBlock> parts;
-    for (const std::size_t i : group) parts.push_back(linearize(problem, problem.runs[i], coefficients, components));
-    blocks.push_back(parts.size() == 1 ? parts.front() : join(parts));
+    VectorXd shape;
+    for (const std::size_t i : group) {
+      const FitRun& run = problem.runs[i];
+      parts.push_back(linearize(problem, run, coefficients, components));
+      const VectorXd of_run = make_session_shape(problem, run, coefficients);
+      shape.conservativeResize(shape.size() + of_run.size());
+      shape.tail(of_run.size()) = of_run;
+    }
+    blocks.push_back(parts.size() == 1 ? parts.front() : join(parts, shape));
   }
   return blocks;
 }

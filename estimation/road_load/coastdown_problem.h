@@ -11,9 +11,13 @@
 namespace rollrig::estimation {
 
 /// Kinds of scatter: of passing times, along a run, from run to run (constant; in proportion to speed), from
-/// session to session.
+/// session to session (SessionShape).
 enum CoastdownScatter : Eigen::Index { kPassing, kGust, kRunForce, kRunSpeed, kSession, kComponents };
-constexpr double kRunSpeedScale_m_s = 20.0;  // makes the two run components alike in size
+constexpr double kRunSpeedScale_m_s = 20.0;  // makes the components of runs and sessions alike in size
+
+/// How the force by which a session differs goes with speed: the same at all speeds (as of a colder tire), or in
+/// proportion to the force (as of another mass).
+enum class SessionShape { kConstant, kProportional };
 
 /// The problem in one place: runs, model, and the sessions behind the wind columns.
 struct CoastdownProblem {
@@ -21,6 +25,7 @@ struct CoastdownProblem {
   CoastdownModel model;
   std::vector<std::string> wind_sessions;
   std::vector<std::vector<std::size_t>> groups;  // runs that share scatter: those of a session, if there are several
+  SessionShape session_shape = SessionShape::kConstant;
 };
 
 CoastdownProblem make_problem(const CoastdownData& data, const RoadLoadFitOptions& options, double mass_kg);

@@ -2,6 +2,7 @@
 /// Whether coastdowns keep to what SAE J1263, J2263 and UN GTR 15 ask for, how they drift in a session, and how well
 /// pairs of both headings repeat.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,13 +39,28 @@ struct PairPrecision {
 /// Checked   tests/estimation/road_load_checks_test.cpp
 std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const RoadLoadFit& fit);
 
-/// Probability that runs of sessions that do not differ show at least this difference of their sessions; absent where
-/// no session has two runs of a heading.
-/// Equation  F = (sum_s n_s (g_s - g)^2/(k - 1)) / (sum_r (g_r - g_sh)^2/(n - c)), F distribution
-/// Symbols   g_r as in find_session_drifts(); means g_s of the k sessions, g_sh of the c headings in sessions
-/// Source    one-way analysis of variance; the fit has a wind in each session
+/// How sessions differ by the mean forces of their runs.
+struct SessionDifference {
+  double chance = 1.0;  // that sessions that do not differ show at least this
+  double sd = 0.0;      // of the sessions' mean forces, over the fitted force
+};
+
+/// Absent where no session has two runs of a heading, or there is one session.
+/// Equation  F = (sum_s n_s (g_s - g)^2/(k - 1)) / (sum_r (g_r - g_sh)^2/(n - c)), F distribution;
+///           sd^2 = sum_s (g_s - mean g_s)^2/(k - 1)
+/// Symbols   g_r mean of (force - fit)/fit of run r, here `deviations`; means g_s of the k sessions, g_sh of the c
+///           headings in sessions
+/// Source    one-way analysis of variance
 /// Checked   tests/estimation/road_load_checks_test.cpp
-std::optional<double> find_session_chance(const CoastdownData& data, const RoadLoadFit& fit);
+std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
+                                                  const std::map<std::size_t, double>& deviations);
+
+/// A warning where that chance is below 0.01.
+std::optional<std::string> doubt_session_difference(const CoastdownData& data,
+                                                    const std::map<std::size_t, double>& deviations);
+
+/// Mean relative deviation of each run that has points, weighted; g_r of find_session_drifts().
+std::map<std::size_t, double> find_run_deviations(const RoadLoadFit& fit);
 
 /// Equation  p = t s/(sqrt(n) mean), pair time 2/(1/dt_+ + 1/dt_-), t: Student's, two-sided 95 %
 /// Source    70/220/EEC Annex III (the same form with 2 %); UN GTR 15 Annex 4, 4.3.1.4.2 (harmonized average, 3 %)

@@ -69,7 +69,11 @@ void put_scatter(const CoastdownProblem& problem, const LinearEstimate& linear, 
   fit.scatter.gust_N_sqrt_s = sd(kGust);
   fit.scatter.run_force_N = sd(kRunForce);
   fit.scatter.run_speed_N_s_per_m = sd(kRunSpeed);
-  fit.scatter.session_force_N = sd(kSession);
+  if (problem.session_shape == SessionShape::kConstant) {
+    fit.scatter.session_force_N = sd(kSession);
+  } else {
+    fit.scatter.session_share = *sd(kSession) / fit.force_N(kRunSpeedScale_m_s);
+  }
   if (fit.scatter.run_speed_N_s_per_m.has_value()) *fit.scatter.run_speed_N_s_per_m /= kRunSpeedScale_m_s;
   double squares = 0.0;
   double freedom = 0.0;
@@ -81,6 +85,25 @@ void put_scatter(const CoastdownProblem& problem, const LinearEstimate& linear, 
     }
   }
   if (freedom > 0.0) fit.scatter.sample_sd_m_s = std::sqrt(squares / freedom);
+}
+
+/// The fit, with the shape of the sessions' differences that is more likely: a constant, unless the data speak clearly.
+IteratedFit fit_with_likely_shape(const RoadLoadFitOptions& options, CoastdownProblem& problem) {
+  constexpr double kClearly = 3.0;  // Assumed: a factor of 20 in likelihood, since tires that are warmer are common
+  IterationStart start{start_coefficients(problem), VectorXd::Zero(kComponents)};
+  start.components(kPassing) = 1e-4;
+  const IteratedFit constant = iterate_road_load(problem, options.bounds, start, Components::kEstimated);
+  if (!constant.linear.decided[kSession]) return constant;
+  CoastdownProblem other = problem;
+  other.session_shape = SessionShape::kProportional;
+  try {
+    const IteratedFit proportional = iterate_road_load(other, options.bounds, start, Components::kEstimated);
+    if (proportional.linear.log_likelihood < constant.linear.log_likelihood + kClearly) return constant;
+    problem.session_shape = other.session_shape;
+    return proportional;
+  } catch (const RunFailure&) {
+    return constant;
+  }
 }
 
 /// Wind and slope from what differs between the headings.
@@ -229,14 +252,7 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
         "too few runs to tell how they differ from run to run: the standard deviations are those of the noise along a "
         "run, and too small");
   }
-  constexpr double kUnlikely = 0.01;
-  if (fit.scatter.session_force_N.value_or(0.0) > 0.0 && find_session_chance(data, fit).value_or(1.0) < kUnlikely) {
-    const double middle = 0.5 * (fit.high_m_s + fit.low_m_s);
-    fit.warnings.push_back(fmt::format(
-        "the sessions differ by a standard deviation of {:.1f} % of the force at {:.0f} km/h, more than their noise "
-        "explains; where they cover different speeds this bends the curve",
-        100.0 * *fit.scatter.session_force_N / fit.force_N(middle), 3.6 * middle));
-  }
+  if (const auto doubt = doubt_session_difference(data, find_run_deviations(fit))) fit.warnings.push_back(*doubt);
   doubt_drag_area(options, fit);
   if (!options.mass_kg.has_value()) {
     fit.warnings.push_back("no mass given: A, B and C are per unit of effective mass");
@@ -288,11 +304,9 @@ RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& o
     fit.effective_mass_kg =
         *options.mass_kg + options.rotating_mass_kg.value_or((kDefaultEffectiveRatio - 1.0) * *options.mass_kg);
   }
-  const CoastdownProblem problem = make_problem(data, options, fit.effective_mass_kg);
+  CoastdownProblem problem = make_problem(data, options, fit.effective_mass_kg);
   require_enough(problem, options);
-  IterationStart start{start_coefficients(problem), VectorXd::Zero(kComponents)};
-  start.components(kPassing) = 1e-4;
-  const IteratedFit iterated = iterate_road_load(problem, options.bounds, start, Components::kEstimated);
+  const IteratedFit iterated = fit_with_likely_shape(options, problem);
   const auto& [linear, unbounded, coefficients, components, iterations] = iterated;
   fit.iterations = iterations;
   static_cast<RoadLoadEstimate&>(fit) = to_estimate(linear);

@@ -85,7 +85,8 @@ Json scatter_json(const RoadLoadFit& fit) {
           {"gust_" + unit + "_sqrt_s", number_or_null(fit.scatter.gust_N_sqrt_s)},
           {"run_to_run_" + unit, number_or_null(fit.scatter.run_force_N)},
           {"run_to_run_" + unit + "_s_per_m", number_or_null(fit.scatter.run_speed_N_s_per_m)},
-          {"session_to_session_" + unit, number_or_null(fit.scatter.session_force_N)}};
+          {"session_to_session_" + unit, number_or_null(fit.scatter.session_force_N)},
+          {"session_to_session_share", number_or_null(fit.scatter.session_share)}};
 }
 
 Json options_json(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {

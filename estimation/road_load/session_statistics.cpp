@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -28,19 +29,6 @@ std::map<std::string, std::vector<std::size_t>> sort_sessions(const CoastdownDat
                      [&](std::size_t a, std::size_t b) { return *data.runs[a].start_s < *data.runs[b].start_s; });
   }
   return sessions;
-}
-
-/// Mean relative deviation of each run that has points.
-std::map<std::size_t, double> find_deviations(const RoadLoadFit& fit) {
-  std::map<std::size_t, std::pair<double, double>> sums;
-  for (const RoadLoadPoint& point : fit.points) {
-    const double weight = point.fit_N * point.fit_N / (point.sd_N * point.sd_N);
-    sums[point.run].first += weight * point.residual_N / point.fit_N;
-    sums[point.run].second += weight;
-  }
-  std::map<std::size_t, double> deviations;
-  for (const auto& [run, sum] : sums) deviations[run] = sum.first / sum.second;
-  return deviations;
 }
 
 std::optional<SessionDrift> fit_drift(const CoastdownData& data, const std::vector<std::size_t>& runs,
@@ -137,8 +125,20 @@ double calc_mean(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())).mean();
 }
 
+std::map<std::size_t, double> find_run_deviations(const RoadLoadFit& fit) {
+  std::map<std::size_t, std::pair<double, double>> sums;
+  for (const RoadLoadPoint& point : fit.points) {
+    const double weight = point.fit_N * point.fit_N / (point.sd_N * point.sd_N);
+    sums[point.run].first += weight * point.residual_N / point.fit_N;
+    sums[point.run].second += weight;
+  }
+  std::map<std::size_t, double> deviations;
+  for (const auto& [run, sum] : sums) deviations[run] = sum.first / sum.second;
+  return deviations;
+}
+
 std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const RoadLoadFit& fit) {
-  const std::map<std::size_t, double> deviations = find_deviations(fit);
+  const std::map<std::size_t, double> deviations = find_run_deviations(fit);
   std::vector<SessionDrift> drifts;
   for (const auto& [session, runs] : sort_sessions(data)) {
     const std::optional<SessionDrift> drift = fit_drift(data, runs, deviations);
@@ -147,15 +147,15 @@ std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const R
   return drifts;
 }
 
-std::optional<double> find_session_chance(const CoastdownData& data, const RoadLoadFit& fit) {
+std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
+                                                  const std::map<std::size_t, double>& deviations) {
   struct Group {
     double count = 0.0, sum = 0.0;
     double mean() const { return sum / count; }
   };
   std::map<std::string, Group> sessions;
   std::map<std::pair<std::string, int>, Group> headings;
-  Group all;
-  const std::map<std::size_t, double> deviations = find_deviations(fit);
+  Group all, of_means;
   for (const auto& [run, deviation] : deviations) {
     const CoastdownRun& of = data.runs[run];
     for (Group* group : {&sessions[of.session], &headings[{of.session, of.heading}], &all}) {
@@ -166,15 +166,40 @@ std::optional<double> find_session_chance(const CoastdownData& data, const RoadL
   const double between_freedom = static_cast<double>(sessions.size()) - 1.0;
   const double within_freedom = all.count - static_cast<double>(headings.size());
   if (between_freedom < 1.0 || within_freedom < 1.0) return std::nullopt;
-  double between = 0.0, within = 0.0;
-  for (const auto& [name, group] : sessions) between += group.count * std::pow(group.mean() - all.mean(), 2);
+  for (const auto& [name, group] : sessions) {
+    of_means.count += 1.0;
+    of_means.sum += group.mean();
+  }
+  SessionDifference difference;
+  double between = 0.0, within = 0.0, squares = 0.0;
+  for (const auto& [name, group] : sessions) {
+    between += group.count * std::pow(group.mean() - all.mean(), 2);
+    squares += std::pow(group.mean() - of_means.mean(), 2);
+  }
+  difference.sd = std::sqrt(squares / between_freedom);
   for (const auto& [run, deviation] : deviations) {
     const CoastdownRun& of = data.runs[run];
     within += std::pow(deviation - headings[{of.session, of.heading}].mean(), 2);
   }
-  if (!(within > 0.0)) return between > 0.0 ? 0.0 : 1.0;
+  if (!(within > 0.0)) {
+    difference.chance = between > 0.0 ? 0.0 : 1.0;
+    return difference;
+  }
   const boost::math::fisher_f chance(between_freedom, within_freedom);
-  return boost::math::cdf(boost::math::complement(chance, between / between_freedom / (within / within_freedom)));
+  difference.chance =
+      boost::math::cdf(boost::math::complement(chance, between / between_freedom / (within / within_freedom)));
+  return difference;
+}
+
+std::optional<std::string> doubt_session_difference(const CoastdownData& data,
+                                                    const std::map<std::size_t, double>& deviations) {
+  constexpr double kUnlikely = 0.01;
+  const std::optional<SessionDifference> found = compare_sessions(data, deviations);
+  if (!found.has_value() || found->chance >= kUnlikely) return std::nullopt;
+  return fmt::format(
+      "the sessions differ by a standard deviation of {:.1f} % of the force, more than their noise explains; where "
+      "they cover different speeds this bends the curve",
+      100.0 * found->sd);
 }
 
 std::vector<PairPrecision> find_pair_precisions(const CoastdownData& data, const RoadLoadFit& fit) {

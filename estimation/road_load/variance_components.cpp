@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -17,15 +18,23 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd invert(const MatrixXd& matrix) {
+struct Inverse {
+  MatrixXd matrix;
+  double log_determinant = 0.0;  // of what was inverted
+};
+
+Inverse invert_with_determinant(const MatrixXd& matrix) {
   constexpr double kLeastPivot = 1e-14;  // of a matrix with a unit diagonal
   const VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<MatrixXd> factor(scale.asDiagonal() * matrix * scale.asDiagonal());
   if (!scale.allFinite() || factor.info() != Eigen::Success || factor.vectorD().minCoeff() < kLeastPivot) {
     throw RunFailure("the coastdowns do not decide the coefficients: wider or more speeds are needed");
   }
-  return scale.asDiagonal() * factor.solve(MatrixXd::Identity(matrix.rows(), matrix.cols())) * scale.asDiagonal();
+  return {scale.asDiagonal() * factor.solve(MatrixXd::Identity(matrix.rows(), matrix.cols())) * scale.asDiagonal(),
+          factor.vectorD().array().log().sum() - 2.0 * scale.array().log().sum()};
 }
+
+MatrixXd invert(const MatrixXd& matrix) { return invert_with_determinant(matrix).matrix; }
 
 /// What the blocks give at one set of components.
 struct Sums {
@@ -36,18 +45,22 @@ struct Sums {
   VectorXd trace;           // tr(W V_i W V_i), of which H(i, i) is what the coefficients leave
   VectorXd q;               // y'P V_i P y
   double chi2 = 0.0;
+  double log_determinants = 0.0;  // log|V| + log|X'WX|
 };
 
 struct Weighted {
   MatrixXd W, WX;
   VectorXd Wy;
+  double log_determinant = 0.0;  // of V
 };
 
 Weighted weigh(const LinearBlock& block, const VectorXd& components) {
   MatrixXd V = MatrixXd::Zero(block.y.size(), block.y.size());
   for (std::size_t i = 0; i < block.patterns.size(); ++i) V += components(static_cast<Index>(i)) * block.patterns[i];
+  Inverse inverse = invert_with_determinant(V);
   Weighted weighted;
-  weighted.W = invert(V);
+  weighted.log_determinant = inverse.log_determinant;
+  weighted.W = std::move(inverse.matrix);
   weighted.WX = weighted.W * block.X;
   weighted.Wy = weighted.W * block.y;
   return weighted;
@@ -57,16 +70,19 @@ Weighted weigh(const LinearBlock& block, const VectorXd& components) {
 Sums sum_up(const std::vector<LinearBlock>& blocks, const VectorXd& components, bool with_traces) {
   const Index p = blocks.front().X.cols();
   const Index m = components.size();
+  Sums sums;
   std::vector<Weighted> weighted;
   MatrixXd N = MatrixXd::Zero(p, p);
   VectorXd b = VectorXd::Zero(p);
   for (const LinearBlock& block : blocks) {
     weighted.push_back(weigh(block, components));
+    sums.log_determinants += weighted.back().log_determinant;
     N += block.X.transpose() * weighted.back().WX;
     b += block.X.transpose() * weighted.back().Wy;
   }
-  Sums sums;
-  sums.Q = invert(N);
+  Inverse inverse = invert_with_determinant(N);
+  sums.log_determinants += inverse.log_determinant;
+  sums.Q = std::move(inverse.matrix);
   sums.beta = sums.Q * b;
   sums.S.assign(static_cast<std::size_t>(m), MatrixXd::Zero(p, p));
   sums.H = MatrixXd::Zero(m, m);
@@ -146,6 +162,7 @@ LinearEstimate solve_weighted(const std::vector<LinearBlock>& blocks, const Vect
   estimate.covariance = sums.Q;
   estimate.components = components;
   estimate.chi2 = sums.chi2;
+  estimate.log_likelihood = -0.5 * (sums.log_determinants + sums.chi2);
   return estimate;
 }
 
@@ -157,6 +174,7 @@ LinearEstimate step_variance_components(const std::vector<LinearBlock>& blocks, 
   estimate.coefficients = sums.beta;
   estimate.covariance = sums.Q;
   estimate.chi2 = sums.chi2;
+  estimate.log_likelihood = -0.5 * (sums.log_determinants + sums.chi2);
   for (Index i = 0; i < components.size(); ++i) {
     estimate.decided.push_back(sums.H(i, i) > kUndecided * sums.trace(i));
   }

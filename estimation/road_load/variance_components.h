@@ -21,11 +21,13 @@ struct LinearEstimate {
   Eigen::VectorXd degrees_freedom;  // of each coefficient's variance (Satterthwaite)
   std::vector<bool> decided;        // whether the data decide the component at all
   double chi2 = 0.0;                // of the residuals, weighted by the covariance found
+  double log_likelihood = 0.0;      // restricted, at the components given to the step, without its constant
 };
 
 /// One step towards the restricted maximum likelihood, and the estimate there.
 /// Equation  V = sum s_i V_i;  beta = (X'WX)^-1 X'W y,  W = V^-1;  sum_j tr(P V_i P V_j) s_j = y'P V_i P y,
-///           P = W - W X (X'WX)^-1 X'W;  degrees of freedom 2 var^2 / Var(var)
+///           P = W - W X (X'WX)^-1 X'W;  degrees of freedom 2 var^2 / Var(var);
+///           restricted log likelihood -(log|V| + log|X'WX| + y'P y)/2
 /// Symbols   s_i component of variance, `floors` its least value; V_i pattern
 /// Validity  normal scatter; components that come out negative are set to their floor
 /// Source    Harville 1977 (restricted likelihood, scoring); Fai and Cornelius 1996 (degrees of freedom)

@@ -1,5 +1,6 @@
 #include "estimation/road_load/road_load_checks.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -191,7 +192,62 @@ Doubted count_doubted(int sets) {
   return doubted;
 }
 
+/// Two sessions of the same kind, one after the other.
+CoastdownData join_sessions(const tests::CoastdownStudy& first, const tests::CoastdownStudy& second) {
+  CoastdownData data = tests::simulate_coastdowns(first, 1);
+  for (auto& run : tests::simulate_coastdowns(second, 2).runs) {
+    data.runs.push_back(run);
+    data.runs.back().session = "pm";
+  }
+  return data;
+}
+
+estimation::RoadLoadFit fit_study(const CoastdownData& data) {
+  estimation::RoadLoadFitOptions options;
+  options.mass_kg = tests::CoastdownStudy().mass_kg;
+  return estimation::fit_road_load(data, options);
+}
+
+bool mentions_sessions(const estimation::RoadLoadFit& fit, const std::string& text) {
+  return std::any_of(fit.warnings.begin(), fit.warnings.end(),
+                     [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+}
+
+bool holds_both(const estimation::RoadLoadFit& fit, int coefficient, double low, double high) {
+  const auto [lower, upper] = fit.interval_95(coefficient);
+  return lower <= low && high <= upper;
+}
+
 }  // namespace
+
+TEST_CASE("sessions that differ by a share of the force: it is said, and the intervals hold both", "[fast]") {
+  tests::CoastdownStudy study;
+  study.pairs = 3;
+  study.run_force_sd_N = 1.0;
+  tests::CoastdownStudy high = study;
+  high.load = {1.2 * study.load.A_N, 1.2 * study.load.B_N_s_per_m, 1.2 * study.load.C_N_s2_per_m2};
+  const CoastdownData data = join_sessions(study, high);
+  const estimation::RoadLoadFit fit = fit_study(data);
+  // 1 and 1.2 times the same: a standard deviation of 0.1414 about a mean of 1.1
+  CHECK(fit.scatter.session_share.value_or(0.0) == Approx(0.1414 / 1.1).epsilon(0.1));
+  CHECK_FALSE(fit.scatter.session_force_N.has_value());
+  CHECK(mentions_sessions(fit, "the sessions differ by a standard deviation of 12."));
+  CHECK(holds_both(fit, 0, study.load.A_N, high.load.A_N));
+  CHECK(holds_both(fit, 2, study.load.C_N_s2_per_m2, high.load.C_N_s2_per_m2));
+}
+
+TEST_CASE("sessions that differ by the same force at all speeds widen A, and not C", "[fast]") {
+  tests::CoastdownStudy study;
+  study.pairs = 3;
+  study.run_force_sd_N = 1.0;
+  tests::CoastdownStudy high = study;
+  high.load.A_N += 20.0;
+  const estimation::RoadLoadFit fit = fit_study(join_sessions(study, high));
+  CHECK(fit.scatter.session_force_N.value_or(0.0) == Approx(20.0 / std::sqrt(2.0)).epsilon(0.1));
+  CHECK_FALSE(fit.scatter.session_share.has_value());
+  CHECK(holds_both(fit, 0, study.load.A_N, high.load.A_N));
+  CHECK(fit.sd(2) < 0.005 * fit.load.C_N_s2_per_m2);
+}
 
 TEST_CASE("sessions that do not differ are hardly ever doubted, those 5 % apart mostly", "[slow]") {
   const Doubted doubted = count_doubted(25);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Dense>
+
 #include "sim/core/error.h"
 #include "sim/core/random.h"
 
@@ -112,4 +114,37 @@ TEST_CASE("coefficients that the data do not decide are refused", "[fast]") {
   block.X = MatrixXd::Ones(3, 2);
   block.patterns = {MatrixXd::Identity(3, 3)};
   CHECK_THROWS_AS(solve_weighted({block}, VectorXd::Ones(1)), RunFailure);
+}
+
+TEST_CASE("restricted log likelihood is that of contrasts which the coefficients leave", "[fast]") {
+  // Rows of K: an orthonormal basis of what is orthogonal to X; K y has no mean, whatever the coefficients. In terms
+  // of them, log|V| + log|X'WX| = log|K V K'| + log|X'X|.
+  RandomStream random(7, "contrasts");
+  std::vector<LinearBlock> blocks;
+  MatrixXd X(12, 2), V = MatrixXd::Zero(12, 12);
+  VectorXd y(12);
+  const VectorXd components = Eigen::Vector2d(0.7, 2.5);
+  for (int b = 0; b < 3; ++b) {
+    LinearBlock block{VectorXd(4), MatrixXd(4, 2), {MatrixXd::Identity(4, 4), MatrixXd(4, 4)}};
+    VectorXd shape(4);
+    for (int i = 0; i < 4; ++i) {
+      block.y(i) = 3.0 + random.normal();
+      block.X.row(i) << 1.0, random.normal();
+      shape(i) = 1.0 + 0.5 * i;
+    }
+    block.patterns[1] = shape * shape.transpose();
+    y.segment(4 * b, 4) = block.y;
+    X.middleRows(4 * b, 4) = block.X;
+    V.block(4 * b, 4 * b, 4, 4) = components(0) * block.patterns[0] + components(1) * block.patterns[1];
+    blocks.push_back(block);
+  }
+  const Eigen::HouseholderQR<MatrixXd> parts(X);
+  const MatrixXd K = MatrixXd(parts.householderQ()).rightCols(10).transpose();
+  const MatrixXd of_contrasts = K * V * K.transpose();
+  const VectorXd z = K * y;
+  const double log_likelihood = -0.5 * (std::log(of_contrasts.determinant()) + z.dot(of_contrasts.inverse() * z) +
+                                        std::log((X.transpose() * X).determinant()));
+  const VectorXd floors = VectorXd::Constant(2, 1e-12);
+  CHECK(step_variance_components(blocks, components, floors).log_likelihood == Approx(log_likelihood).epsilon(1e-9));
+  CHECK(solve_weighted(blocks, components).log_likelihood == Approx(log_likelihood).epsilon(1e-9));
 }

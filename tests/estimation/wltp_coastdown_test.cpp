@@ -191,6 +191,25 @@ TEST_CASE("WLTP coastdown: what is wrong with a test is said", "[fast]") {
   }
 }
 
+TEST_CASE("WLTP coastdown: sessions that differ are said to, those that do not are not", "[fast]") {
+  ProcedureStudy study;
+  study.pairs = 3;
+  study.run_force_sd_N = 2.0;
+  tests::SimulatedProcedure low = simulate_procedure(study, 1);
+  const auto join = [&low, &study](double factor) {
+    ProcedureStudy other = study;
+    other.load = {factor * study.load.A_N, factor * study.load.B_N_s_per_m, factor * study.load.C_N_s2_per_m2};
+    CoastdownFile file = low.file;
+    for (CoastdownRun run : simulate_procedure(other, 2).file.data.runs) {
+      run.session = "pm";
+      file.data.runs.push_back(run);
+    }
+    return evaluate_wltp_coastdowns(file, make_wltp_options(low.mass_kg));
+  };
+  CHECK(has_warning(join(1.2), "the sessions differ by a standard deviation of 1"));
+  CHECK_FALSE(has_warning(join(1.0), "the sessions differ"));
+}
+
 TEST_CASE("WLTP coastdown: a wind that was not measured is no wind of 0", "[fast]") {
   tests::SimulatedProcedure simulated = simulate_procedure(make_quiet_study(), 1);
   const RoadLoadProcedure measured = evaluate_wltp_coastdowns(simulated.file, make_wltp_options(1850.0));
