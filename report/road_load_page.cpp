@@ -92,7 +92,7 @@ Table make_scatter(const RoadLoadFit& fit, const estimation::RoadLoadChecks& che
   add("scatter from run to run", fit.scatter.run_force_N, unit);
   add("  in proportion to speed", fit.scatter.run_speed_N_s_per_m, unit + " s/m");
   if (fit.scatter.session_force_N.has_value()) {
-    add("scatter from session to session", fit.scatter.session_force_N, unit);
+    add("scatter from session to session, at all speeds", fit.scatter.session_force_N, unit);
   }
   if (fit.scatter.session_share.has_value()) {
     add("scatter from session to session", 100.0 * *fit.scatter.session_share, "% of the force");

@@ -44,17 +44,14 @@ MatrixXd make_gust_pattern(const FitRun& run, const std::vector<double>& duratio
   return pattern;
 }
 
-/// How the scatter of a run's session goes over its bins: the forces of the model over the one at kRunSpeedScale_m_s,
-/// or ones.
+/// How the scatter of a run's session goes over its bins: ones, or the forces of the model in N.
 VectorXd make_session_shape(const CoastdownProblem& problem, const FitRun& run, const VectorXd& coefficients) {
   VectorXd shape = VectorXd::Ones(static_cast<Index>(run.bins.size()));
   if (problem.session_shape == SessionShape::kConstant) return shape;
-  const double v = kRunSpeedScale_m_s;
-  const double scale_N = coefficients.head(3).dot(Eigen::Vector3d(1.0, v, v * v));
   for (Index k = 0; k < shape.size(); ++k) {
     const FitBin& bin = run.bins[static_cast<std::size_t>(k)];
     const double impulse = problem.model.mass_kg() * (bin.high_m_s - bin.low_m_s);
-    shape(k) = impulse / problem.model.pass(run, bin, coefficients).duration_s / scale_N;
+    shape(k) = impulse / problem.model.pass(run, bin, coefficients).duration_s;
   }
   return shape;
 }

@@ -15,8 +15,8 @@ namespace rollrig::estimation {
 enum CoastdownScatter : Eigen::Index { kPassing, kGust, kRunForce, kRunSpeed, kSession, kComponents };
 constexpr double kRunSpeedScale_m_s = 20.0;  // makes the components of runs and sessions alike in size
 
-/// How the force by which a session differs goes with speed: the same at all speeds (as of a colder tire), or in
-/// proportion to the force (as of another mass).
+/// How the force by which a session differs goes with speed: the same force at all speeds (as with a colder tire), or
+/// the same share of the force (as if a clock were wrong).
 enum class SessionShape { kConstant, kProportional };
 
 /// The problem in one place: runs, model, and the sessions behind the wind columns.

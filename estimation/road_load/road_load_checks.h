@@ -41,21 +41,23 @@ std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const R
 
 /// How sessions differ by the mean forces of their runs.
 struct SessionDifference {
-  double chance = 1.0;  // that sessions that do not differ show at least this
-  double sd = 0.0;      // of the sessions' mean forces, over the fitted force
+  double p_value = 1.0;      // of sessions that do not differ
+  double relative_sd = 0.0;  // of the sessions' mean forces, over the fitted force
 };
 
-/// Absent where no session has two runs of a heading, or there is one session.
-/// Equation  F = (sum_s n_s (g_s - g)^2/(k - 1)) / (sum_r (g_r - g_sh)^2/(n - c)), F distribution;
-///           sd^2 = sum_s (g_s - mean g_s)^2/(k - 1)
-/// Symbols   g_r mean of (force - fit)/fit of run r, here `deviations`; means g_s of the k sessions, g_sh of the c
-///           headings in sessions
-/// Source    one-way analysis of variance
+/// Absent where no session has two runs of a heading, or fewer than two sessions have both headings (where there are
+/// both). A slope or a wind that shifts the headings apart does not count, however many runs each heading has.
+/// Equation  F = (sum_s w_s (g_s - g)^2/(k - 1)) / (sum_r (g_r - g_sh)^2/(n - c)), F distribution;
+///           g_s = mean over h of g_sh; 1/w_s = sum_h 1/n_sh / (headings)^2; g = sum w_s g_s / sum w_s;
+///           relative_sd^2 = sum_s (g_s - mean g_s)^2/(k - 1)
+/// Symbols   g_r mean of (force - fit)/fit of run r, here `deviations`; g_sh mean of the n_sh runs of session s with
+///           heading h; k sessions, c pairs of session and heading, n runs
+/// Source    analysis of variance of unweighted means
 /// Checked   tests/estimation/road_load_checks_test.cpp
 std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
                                                   const std::map<std::size_t, double>& deviations);
 
-/// A warning where that chance is below 0.01.
+/// A warning where that p value is below 0.01 and the standard deviation is at least 0.1 %.
 std::optional<std::string> doubt_session_difference(const CoastdownData& data,
                                                     const std::map<std::size_t, double>& deviations);
 

@@ -72,7 +72,7 @@ void put_scatter(const CoastdownProblem& problem, const LinearEstimate& linear, 
   if (problem.session_shape == SessionShape::kConstant) {
     fit.scatter.session_force_N = sd(kSession);
   } else {
-    fit.scatter.session_share = *sd(kSession) / fit.force_N(kRunSpeedScale_m_s);
+    fit.scatter.session_share = sd(kSession);
   }
   if (fit.scatter.run_speed_N_s_per_m.has_value()) *fit.scatter.run_speed_N_s_per_m /= kRunSpeedScale_m_s;
   double squares = 0.0;
@@ -89,17 +89,17 @@ void put_scatter(const CoastdownProblem& problem, const LinearEstimate& linear, 
 
 /// The fit, with the shape of the sessions' differences that is more likely: a constant, unless the data speak clearly.
 IteratedFit fit_with_likely_shape(const RoadLoadFitOptions& options, CoastdownProblem& problem) {
-  constexpr double kClearly = 3.0;  // Assumed: a factor of 20 in likelihood, since tires that are warmer are common
+  constexpr double kClearly = 3.0;  // log 20. Assumed: the temperature of tires often differs, which is a constant
   IterationStart start{start_coefficients(problem), VectorXd::Zero(kComponents)};
   start.components(kPassing) = 1e-4;
   const IteratedFit constant = iterate_road_load(problem, options.bounds, start, Components::kEstimated);
   if (!constant.linear.decided[kSession]) return constant;
-  CoastdownProblem other = problem;
-  other.session_shape = SessionShape::kProportional;
+  CoastdownProblem with_shares = problem;
+  with_shares.session_shape = SessionShape::kProportional;
   try {
-    const IteratedFit proportional = iterate_road_load(other, options.bounds, start, Components::kEstimated);
+    const IteratedFit proportional = iterate_road_load(with_shares, options.bounds, start, Components::kEstimated);
     if (proportional.linear.log_likelihood < constant.linear.log_likelihood + kClearly) return constant;
-    problem.session_shape = other.session_shape;
+    problem.session_shape = with_shares.session_shape;
     return proportional;
   } catch (const RunFailure&) {
     return constant;

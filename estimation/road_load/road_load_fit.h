@@ -39,7 +39,7 @@ struct RoadLoadPoint {
   double force_N = 0.0;     // m dv/dt, as tested
   double fit_N = 0.0;       // as tested, with wind, slope and weather
   double residual_N = 0.0;  // force - fit
-  double sd_N = 0.0;        // of one point, by the scatter found; weight = 1/sd^2
+  double sd_N = 0.0;        // of one point, by the scatter found but that of sessions; weight = 1/sd^2
 };
 
 /// Scatter that the fit found. Those that the data cannot decide are absent.
@@ -50,7 +50,7 @@ struct RoadLoadScatter {
   std::optional<double> run_force_N;          // force from run to run
   std::optional<double> run_speed_N_s_per_m;  // force in proportion to speed, from run to run
   std::optional<double> session_force_N;      // force from session to session, alike at all speeds
-  std::optional<double> session_share;        // instead, where the data make it more likely: share of the force
+  std::optional<double> session_share;        // instead of it: share of the force, alike at all speeds
 };
 
 struct RoadLoadEstimate {
@@ -111,8 +111,8 @@ struct RoadLoadFit : RoadLoadEstimate {     // at reference conditions
 ///           F(v) = k (A + B v) + q C (v + h w)^2 + h (m g s + d_0 + d_1 v) + d_1^2/(4 C)
 ///           k = 1/(1 + K_0 (T_amb - T_0)), q = rho/rho_0, rho = p/(R T)
 ///           covariance: passing times shared by neighboring bins, gusts, run to run (constant, in
-///           proportion to speed), session to session (constant or in proportion to the force, whichever is more
-///           likely), by restricted maximum likelihood
+///           proportion to speed), session to session (constant, or in proportion to the force where that is 20
+///           times as likely), by restricted maximum likelihood
 /// Symbols   m effective mass [kg]; h heading +1 or -1; w wind against + [m/s]; s slope; d_0 [N], d_1 [N s/m]
 ///           what slope and wind remain, d_1 = 2 C times the wind of a session; K_0 [1/K]; rho air density [kg/m3]
 /// Validity  F > 0 at every speed of the data; coasting throughout, no braking; wind below the speed

@@ -210,6 +210,27 @@ TEST_CASE("WLTP coastdown: sessions that differ are said to, those that do not a
   CHECK_FALSE(has_warning(join(1.0), "the sessions differ"));
 }
 
+TEST_CASE("WLTP coastdown: on a slope, a run that is missing is no difference of sessions", "[fast]") {
+  ProcedureStudy study;
+  study.pairs = 3;
+  study.run_force_sd_N = 2.0;
+  study.slope = 0.002;  // 36 N up and down, beside some 400 N
+  study.slope_known = false;
+  const tests::SimulatedProcedure first = simulate_procedure(study, 1);
+  CoastdownFile file = first.file;
+  bool is_missing = false;
+  for (CoastdownRun run : simulate_procedure(study, 2).file.data.runs) {
+    if (run.heading > 0 && !is_missing) {
+      is_missing = true;
+      continue;
+    }
+    run.session = "pm";
+    file.data.runs.push_back(run);
+  }
+  REQUIRE(is_missing);
+  CHECK_FALSE(has_warning(evaluate_wltp_coastdowns(file, make_wltp_options(first.mass_kg)), "the sessions differ"));
+}
+
 TEST_CASE("WLTP coastdown: a wind that was not measured is no wind of 0", "[fast]") {
   tests::SimulatedProcedure simulated = simulate_procedure(make_quiet_study(), 1);
   const RoadLoadProcedure measured = evaluate_wltp_coastdowns(simulated.file, make_wltp_options(1850.0));
