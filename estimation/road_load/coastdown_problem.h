@@ -13,7 +13,7 @@ namespace rollrig::estimation {
 /// Kinds of scatter: of passing times, along a run, from run to run (constant; in proportion to speed), from
 /// session to session (SessionShape).
 enum CoastdownScatter : Eigen::Index { kPassing, kGust, kRunForce, kRunSpeed, kSession, kComponents };
-constexpr double kRunSpeedScale_m_s = 20.0;  // makes the components of runs and sessions alike in size
+constexpr double kRunSpeedScale_m_s = 20.0;  // makes the two components of runs alike in size
 
 /// How the force by which a session differs goes with speed: the same force at all speeds (as with a colder tire), or
 /// the same share of the force (as if a clock were wrong).
