@@ -15,6 +15,7 @@
 #include "estimation/road_load/recorded_wind.h"
 #include "estimation/road_load/road_force_reference.h"
 #include "estimation/road_load/road_load_doubts.h"
+#include "estimation/road_load/session_differences.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {
@@ -144,8 +145,8 @@ void warn_of_signs(RoadLoadFit& fit) {
   }
 }
 
-/// Wind and slope as recorded against what the headings show.
-void doubt_wind_and_slope(const CoastdownData& data, const RoadLoadFitOptions& options, RoadLoadFit& fit) {
+/// Wind and slope as recorded against what the headings show; sessions in another unit.
+void doubt_records(const CoastdownData& data, const RoadLoadFitOptions& options, RoadLoadFit& fit) {
   std::vector<RunResistance> runs;
   for (const RoadLoadPoint& point : fit.points) {
     if (runs.empty() || runs.back().run != point.run) runs.push_back({point.run, {}, {}});
@@ -155,7 +156,8 @@ void doubt_wind_and_slope(const CoastdownData& data, const RoadLoadFitOptions& o
   const double mass_kg = find_test_mass_kg(options, fit.effective_mass_kg);
   const double drag = given_drag(options).value_or(fit.as_tested.C_N_s2_per_m2);
   for (auto& doubts : {doubt_winds(list_winds_by_force(data, runs, drag), "the headings show a wind of", "wind_m_s"),
-                       doubt_slopes(list_slopes_by_force(data, runs, mass_kg, false))}) {
+                       doubt_slopes(list_slopes_by_force(data, runs, mass_kg, false)),
+                       doubt_session_units(data, runs)}) {
     fit.warnings.insert(fit.warnings.end(), doubts.begin(), doubts.end());
   }
 }
@@ -189,7 +191,7 @@ RoadLoadFit fit_checked_road_load(CoastdownFile& file, const RoadLoadFitOptions&
   }
   fit.doubts = checked.doubts;
   warn_of_signs(fit);
-  doubt_wind_and_slope(file.data, options, fit);
+  doubt_records(file.data, options, fit);
   if (options.mass_kg.has_value()) {
     for (std::string& doubt : doubt_masses(*options.mass_kg, options.rotating_mass_kg, std::nullopt)) {
       fit.warnings.push_back(std::move(doubt));

@@ -56,32 +56,13 @@ VectorXd make_session_shape(const CoastdownProblem& problem, const FitRun& run, 
   return shape;
 }
 
-/// The blocks of several runs as one, with a force of this shape that they all share.
-LinearBlock join(const std::vector<LinearBlock>& parts, const VectorXd& session_shape) {
-  Index n = 0;
-  for (const LinearBlock& part : parts) n += part.y.size();
-  LinearBlock joined{VectorXd(n), MatrixXd(n, parts.front().X.cols()), {}};
-  joined.patterns.assign(kComponents, MatrixXd::Zero(n, n));
-  Index row = 0;
-  for (const LinearBlock& part : parts) {
-    const Index rows = part.y.size();
-    joined.y.segment(row, rows) = part.y;
-    joined.X.middleRows(row, rows) = part.X;
-    for (std::size_t i = 0; i < part.patterns.size(); ++i) {
-      joined.patterns[i].block(row, row, rows, rows) = part.patterns[i];
-    }
-    row += rows;
-  }
-  joined.patterns[kSession] = session_shape * session_shape.transpose();
-  return joined;
-}
-
 /// Several sessions: a group each. One session, whose common force A takes: a group a run.
 void group_runs(const CoastdownData& data, CoastdownProblem& problem) {
   std::map<std::string, std::vector<std::size_t>> sessions;
   for (std::size_t i = 0; i < problem.runs.size(); ++i) sessions[data.runs[problem.runs[i].index].session].push_back(i);
+  problem.has_several_sessions = sessions.size() > 1;
   for (const auto& [session, runs] : sessions) {
-    if (sessions.size() > 1) {
+    if (problem.has_several_sessions) {
       problem.groups.push_back(runs);
     } else {
       for (const std::size_t i : runs) problem.groups.push_back({i});
@@ -164,7 +145,8 @@ LinearBlock linearize(const CoastdownProblem& problem, const FitRun& run, const 
     const double measured = impulse / durations[static_cast<std::size_t>(k)] * (1.0 - std::min(relative_variance, 0.5));
     block.y(k) = measured - force + block.X.row(k).dot(coefficients);
   }
-  // of the session's component, nothing: a run alone in its session, or the only session
+  // of the session's component, nothing: the only session, or a run alone in its session, whose component of the same
+  // shape is that of the run
   block.patterns = {passing, make_gust_pattern(run, durations), MatrixXd::Ones(n, n), speed * speed.transpose(),
                     MatrixXd::Zero(n, n)};
   return block;
@@ -228,7 +210,9 @@ std::vector<LinearBlock> linearize_all(const CoastdownProblem& problem, const Ve
       shape.conservativeResize(shape.size() + of_run.size());
       shape.tail(of_run.size()) = of_run;
     }
-    blocks.push_back(parts.size() == 1 ? parts.front() : join(parts, shape));
+    const bool is_session = parts.size() > 1 || problem.session_shape == SessionShape::kProportional;
+    blocks.push_back(join_blocks(parts));
+    if (is_session) blocks.back().patterns[kSession] = shape * shape.transpose();
   }
   return blocks;
 }

@@ -25,6 +25,7 @@ struct CoastdownProblem {
   CoastdownModel model;
   std::vector<std::string> wind_sessions;
   std::vector<std::vector<std::size_t>> groups;  // runs that share scatter: those of a session, if there are several
+  bool has_several_sessions = false;
   SessionShape session_shape = SessionShape::kConstant;
 };
 

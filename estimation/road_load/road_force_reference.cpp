@@ -10,7 +10,20 @@
 namespace rollrig::estimation {
 namespace {
 
-constexpr Eigen::Index kCommonFactors = 4;  // A, B, C, d_0
+constexpr Eigen::Index kCommonFactors = 4;   // A, B, C, d_0
+constexpr Eigen::Index kSessionFactors = 4;  // d_1, D, E, F
+constexpr double kSessionShare = 0.3;        // Assumed: standard deviation of each of them, as a share of the force
+
+/// Precisions of the priors: of the square of a factor's share of the force, on average.
+Eigen::VectorXd find_precisions(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
+  const Eigen::MatrixXd shares = y.cwiseInverse().asDiagonal() * X;
+  Eigen::VectorXd precisions = shares.colwise().squaredNorm().transpose();
+  for (Eigen::Index i = 0; i < precisions.size(); ++i) {
+    const auto in_use = static_cast<double>((shares.col(i).array() != 0.0).count());
+    precisions(i) = i < kCommonFactors || in_use == 0.0 ? 0.0 : precisions(i) / in_use / kSessionShare / kSessionShare;
+  }
+  return precisions;
+}
 
 std::vector<double> to_sizes(const Eigen::VectorXd& values) {
   std::vector<double> sizes;
@@ -42,8 +55,11 @@ RoadForceReference::RoadForceReference(const CoastdownData& data, const std::vec
   solve(points);
 }
 
+Eigen::Index RoadForceReference::count_factors() const {
+  return kCommonFactors + kSessionFactors * static_cast<Eigen::Index>(sessions_.size());
+}
+
 std::vector<RoadForceReference::Point> RoadForceReference::list_points(const FitRun& run) const {
-  const auto sessions = static_cast<Eigen::Index>(sessions_.size());
   const Eigen::Index session = sessions_.at(data_.runs[run.index].session);
   std::vector<Point> points;
   for (const FitBin& bin : run.bins) {
@@ -61,11 +77,13 @@ std::vector<RoadForceReference::Point> RoadForceReference::list_points(const Fit
     point.force_N = mass_kg_ * dv / dt - bin.at.offset_N - bin.at.offset_N_s_per_m * point.speed_m_s;
     if (dt <= 0.0 || point.force_N <= 0.0) continue;
     const double air_m_s = point.speed_m_s + bin.at.wind_m_s;
-    point.factors = Eigen::VectorXd::Zero(kCommonFactors + 2 * sessions);
-    point.factors.head(kCommonFactors) << bin.at.rolling, bin.at.rolling * point.speed_m_s,
-        bin.at.density * air_m_s * std::abs(air_m_s), run.heading;
-    point.factors(kCommonFactors + session) = run.heading * point.speed_m_s;
-    if (session > 0) point.factors(kCommonFactors + sessions + session) = bin.at.rolling;
+    const Eigen::Vector3d load(bin.at.rolling, bin.at.rolling * point.speed_m_s,
+                               bin.at.density * air_m_s * std::abs(air_m_s));
+    point.factors = Eigen::VectorXd::Zero(count_factors());
+    point.factors.head(kCommonFactors) << load, run.heading;
+    const Eigen::Index of_session = kCommonFactors + kSessionFactors * session;
+    point.factors(of_session) = run.heading * point.speed_m_s;
+    if (sessions_.size() > 1) point.factors.segment(of_session + 1, load.size()) = load;
     points.push_back(point);
   }
   return points;
@@ -74,11 +92,10 @@ std::vector<RoadForceReference::Point> RoadForceReference::list_points(const Fit
 void RoadForceReference::solve(const std::vector<Point>& points) {
   constexpr int kIterations = 40;
   constexpr int kHuberFirst = 25;
-  constexpr double kLeastSd = 1e-4;  // relative: rounding
+  constexpr double kFirstSd = 0.02, kLeastSd = 1e-4;  // relative: Assumed; rounding
   constexpr double kLeastShare = 0.2;
   const auto n = static_cast<Eigen::Index>(points.size());
-  const auto sessions = static_cast<Eigen::Index>(sessions_.size());
-  coefficients_ = Eigen::VectorXd::Zero(kCommonFactors + 2 * sessions);
+  coefficients_ = Eigen::VectorXd::Zero(count_factors());
   if (n == 0) return;
   Eigen::MatrixXd X(n, coefficients_.size());
   Eigen::VectorXd y(n);
@@ -86,15 +103,21 @@ void RoadForceReference::solve(const std::vector<Point>& points) {
     X.row(i) = points[static_cast<std::size_t>(i)].factors;
     y(i) = points[static_cast<std::size_t>(i)].force_N;
   }
+  const Eigen::VectorXd precisions = find_precisions(X, y);
   Eigen::VectorXd scale = y, weights = Eigen::VectorXd::Ones(n);
+  double sd = kFirstSd;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Eigen::VectorXd root = weights.cwiseSqrt().cwiseQuotient(scale);
-    coefficients_ = (root.asDiagonal() * X).completeOrthogonalDecomposition().solve(root.cwiseProduct(y).eval()).eval();
+    Eigen::MatrixXd with_priors(n + X.cols(), X.cols());
+    with_priors << root.asDiagonal() * X, Eigen::MatrixXd((sd * precisions.cwiseSqrt()).asDiagonal());
+    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(n + X.cols());
+    wanted.head(n) = root.cwiseProduct(y);
+    coefficients_ = with_priors.completeOrthogonalDecomposition().solve(wanted);
     const Eigen::VectorXd fitted = X * coefficients_;
     // a reference force near zero would make one bin count for all
     scale = fitted.cwiseMax(kLeastShare * fitted.mean());
     const Eigen::VectorXd residual = (y - fitted).cwiseQuotient(scale);
-    const double sd = std::max(kLeastSd, 1.4826 * calc_median(to_sizes(residual)));
+    sd = std::max(kLeastSd, 1.4826 * calc_median(to_sizes(residual)));
     weights =
         residual.unaryExpr([&](double r) { return calc_reference_weight(std::abs(r) / sd, iteration > kHuberFirst); });
   }

@@ -13,10 +13,13 @@
 namespace rollrig::estimation {
 
 /// A road load through mean forces over bins that a few odd runs do not move.
-/// Equation  f = k (A + B v) + q C u|u| + offset + k D_s + h (d_0 + d_1s v), Tukey's weights on the relative residuals
-///           (c = 4.685 robust standard deviations), Huber's (c = 1.345) first
-/// Symbols   f m dv/dt of a bin, at its middle speed v; u = v + h w; D_s, d_1s one for each session; others as in
-///           fit_road_load()
+/// Equation  f = k (A + D_s + (B + E_s) v) + q (C + F_s) u|u| + offset + h (d_0 + d_1s v), Tukey's weights on the
+///           relative residuals (c = 4.685 robust standard deviations), Huber's (c = 1.345) first
+/// Symbols   f m dv/dt of a bin, at its middle speed v; u = v + h w; d_1s, D_s, E_s, F_s one for each session, the
+///           last three where there are several; others as in fit_road_load()
+/// Method    The terms of a session have a normal prior about 0, each of a standard deviation of 30 % of the force
+///           (Assumed): a session may be far from the others, say in another unit, without an odd run, and where its
+///           runs have no weight the prior holds it.
 /// Validity  to look for deviations, not to estimate A, B, C: dv/dt is taken at the middle speed
 /// Source    Holland and Welsch, Communications in Statistics A6 (1977) 813 (the weights)
 /// Checked   tests/estimation/odd_runs_test.cpp
@@ -36,6 +39,7 @@ class RoadForceReference {
     Eigen::VectorXd factors;
   };
   std::vector<Point> list_points(const FitRun& run) const;
+  Eigen::Index count_factors() const;
   void solve(const std::vector<Point>& points);
 
   const CoastdownData& data_;

@@ -39,28 +39,6 @@ struct PairPrecision {
 /// Checked   tests/estimation/road_load_checks_test.cpp
 std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const RoadLoadFit& fit);
 
-/// How sessions differ by the mean forces of their runs.
-struct SessionDifference {
-  double p_value = 1.0;      // of sessions that do not differ
-  double relative_sd = 0.0;  // of the sessions' mean forces, over the fitted force
-};
-
-/// Absent where no session has two runs of a heading, or fewer than two sessions have both headings (where there are
-/// both). A slope or a wind that shifts the headings apart does not count, however many runs each heading has.
-/// Equation  F = (sum_s w_s (g_s - g)^2/(k - 1)) / (sum_r (g_r - g_sh)^2/(n - c)), F distribution;
-///           g_s = mean over h of g_sh; 1/w_s = sum_h 1/n_sh / (headings)^2; g = sum w_s g_s / sum w_s;
-///           relative_sd^2 = sum_s (g_s - mean g_s)^2/(k - 1)
-/// Symbols   g_r mean of (force - fit)/fit of run r, here `deviations`; g_sh mean of the n_sh runs of session s with
-///           heading h; k sessions, c pairs of session and heading, n runs
-/// Source    analysis of variance of unweighted means
-/// Checked   tests/estimation/road_load_checks_test.cpp
-std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
-                                                  const std::map<std::size_t, double>& deviations);
-
-/// A warning where that p value is below 0.01 and the standard deviation is at least 0.1 %.
-std::optional<std::string> doubt_session_difference(const CoastdownData& data,
-                                                    const std::map<std::size_t, double>& deviations);
-
 /// Mean relative deviation of each run that has points, weighted; g_r of find_session_drifts().
 std::map<std::size_t, double> find_run_deviations(const RoadLoadFit& fit);
 

@@ -13,6 +13,7 @@
 #include "estimation/road_load/road_load_doubts.h"
 #include "estimation/road_load/road_load_iteration.h"
 #include "estimation/road_load/road_load_report.h"
+#include "estimation/road_load/session_differences.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -89,16 +90,16 @@ void put_scatter(const CoastdownProblem& problem, const LinearEstimate& linear, 
 
 /// The fit, with the shape of the sessions' differences that is more likely: a constant, unless the data speak clearly.
 IteratedFit fit_with_likely_shape(const RoadLoadFitOptions& options, CoastdownProblem& problem) {
-  constexpr double kClearly = 3.0;  // log 20. Assumed: the temperature of tires often differs, which is a constant
   IterationStart start{start_coefficients(problem), VectorXd::Zero(kComponents)};
   start.components(kPassing) = 1e-4;
   const IteratedFit constant = iterate_road_load(problem, options.bounds, start, Components::kEstimated);
-  if (!constant.linear.decided[kSession]) return constant;
+  if (!problem.has_several_sessions) return constant;
   CoastdownProblem with_shares = problem;
   with_shares.session_shape = SessionShape::kProportional;
   try {
     const IteratedFit proportional = iterate_road_load(with_shares, options.bounds, start, Components::kEstimated);
-    if (proportional.linear.log_likelihood < constant.linear.log_likelihood + kClearly) return constant;
+    const double gain = proportional.linear.log_likelihood - constant.linear.log_likelihood;
+    if (gain < kClearlyMoreLikely) return constant;
     problem.session_shape = with_shares.session_shape;
     return proportional;
   } catch (const RunFailure&) {

@@ -11,6 +11,7 @@
 
 #include "estimation/road_load/recorded_wind.h"
 #include "estimation/road_load/road_load_doubts.h"
+#include "estimation/road_load/session_differences.h"
 #include "sim/core/units.h"
 
 namespace rollrig::estimation {
@@ -30,6 +31,33 @@ double calc_mean_total(const std::vector<double>& along, const std::vector<doubl
     sum += std::hypot(along[i], across.size() == along.size() ? across[i] : 0.0);
   }
   return along.empty() ? 0.0 : sum / static_cast<double>(along.size());
+}
+
+/// The points of each run, but for the runs in `without`.
+std::vector<RunResistance> list_resistances(const CoastdownData& data, const std::vector<std::string>& without,
+                                            const RoadLoadProcedure& procedure) {
+  std::vector<RunResistance> runs;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const std::string name = name_of_run(data.runs[i], data);
+    if (std::find(without.begin(), without.end(), name) != without.end()) continue;
+    RunResistance of_run{i, {}, {}};
+    for (const ProcedurePoint& point : procedure.points) {
+      if (point.run != name) continue;
+      of_run.speed_m_s.push_back(point.speed_m_s);
+      of_run.force_N.push_back(point.measured);
+    }
+    if (!of_run.speed_m_s.empty()) runs.push_back(std::move(of_run));
+  }
+  return runs;
+}
+
+/// Mean of measured over fitted force, less 1, of a run by its name.
+double calc_mean_deviation(const std::string& run, const RoadLoadProcedure& procedure) {
+  std::vector<double> deviations;
+  for (const ProcedurePoint& point : procedure.points) {
+    if (point.run == run) deviations.push_back(point.measured / point.fitted - 1.0);
+  }
+  return calc_mean(deviations);
 }
 
 }  // namespace
@@ -269,22 +297,22 @@ void doubt_units(RoadLoadProcedure& procedure) {
 
 void doubt_recorded_conditions(const CoastdownData& data, const std::string& column, bool has_slopes,
                                RoadLoadProcedure& procedure) {
-  std::vector<RunResistance> runs;
-  for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    const std::string name = name_of_run(data.runs[i], data);
-    RunResistance of_run{i, {}, {}};
-    for (const ProcedurePoint& point : procedure.points) {
-      if (point.run != name) continue;
-      of_run.speed_m_s.push_back(point.speed_m_s);
-      of_run.force_N.push_back(point.measured);
-    }
-    if (!of_run.speed_m_s.empty()) runs.push_back(std::move(of_run));
-  }
+  const std::vector<RunResistance> runs = list_resistances(data, {}, procedure);
   const auto add = [&procedure](const std::vector<std::string>& doubts) {
     procedure.warnings.insert(procedure.warnings.end(), doubts.begin(), doubts.end());
   };
   add(doubt_winds(list_winds_by_force(data, runs, procedure.as_tested(2)), "the headings show a wind of", column));
   if (has_slopes) add(doubt_slopes(list_slopes_by_force(data, runs, procedure.correction.mass_kg, true)));
+}
+
+void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, RoadLoadProcedure& procedure) {
+  const std::vector<RunResistance> runs = list_resistances(data, without, procedure);
+  std::map<std::size_t, double> deviations;
+  for (const RunResistance& run : runs) {
+    deviations[run.run] = calc_mean_deviation(name_of_run(data.runs[run.run], data), procedure);
+  }
+  if (auto doubt = doubt_session_difference(data, deviations)) procedure.warnings.push_back(std::move(*doubt));
+  for (std::string& doubt : doubt_session_units(data, runs)) procedure.warnings.push_back(std::move(doubt));
 }
 
 AirFlow calc_air_flow(double speed_m_s, double against_m_s, double across_m_s) {

@@ -113,6 +113,10 @@ void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& o
 void doubt_recorded_conditions(const CoastdownData& data, const std::string& column, bool has_slopes,
                                RoadLoadProcedure& procedure);
 
+/// Warns where sessions differ (doubt_session_difference(), doubt_session_units()). The points of the runs in `without`,
+/// by name, do not count.
+void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, RoadLoadProcedure& procedure);
+
 /// Corrects `reference.coefficients` to the conditions of reference, with what `tested` says of force and mass, and
 /// puts both there. The contributions of the sensors are there unless the options leave them out.
 void finish_procedure(const RoadLoadProcedureOptions& options, RoadLoadProcedure& procedure);

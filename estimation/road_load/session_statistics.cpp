@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 namespace rollrig::estimation {
@@ -119,44 +118,6 @@ std::optional<PairPrecision> find_precision(const RoadLoadFit& fit,
                        quantile_t(n - 1.0) * s / (std::sqrt(n) * mean)};
 }
 
-/// Deviations of the runs of a session, by their heading.
-using HeadingGroups = std::map<int, std::vector<double>>;
-
-std::map<std::string, HeadingGroups> group_by_heading(const CoastdownData& data,
-                                                      const std::map<std::size_t, double>& deviations) {
-  std::map<std::string, HeadingGroups> sessions;
-  for (const auto& [run, deviation] : deviations) {
-    sessions[data.runs[run].session][data.runs[run].heading].push_back(deviation);
-  }
-  return sessions;
-}
-
-/// The mean of the means of a session's headings, and the inverse of its variance in units of that of a run.
-struct SessionMean {
-  double value = 0.0;
-  double weight = 0.0;
-};
-
-/// Of the sessions with as many headings as the session that has most: a slope or a wind shifts a heading alone.
-std::vector<SessionMean> list_session_means(const std::map<std::string, HeadingGroups>& sessions) {
-  std::size_t most = 0;
-  for (const auto& [name, headings] : sessions) most = std::max(most, headings.size());
-  std::vector<SessionMean> means;
-  for (const auto& [name, headings] : sessions) {
-    if (headings.size() < most) continue;
-    const auto count = static_cast<double>(most);
-    SessionMean mean;
-    double variance = 0.0;
-    for (const auto& [heading, values] : headings) {
-      mean.value += calc_mean(values) / count;
-      variance += 1.0 / (count * count * static_cast<double>(values.size()));
-    }
-    mean.weight = 1.0 / variance;
-    means.push_back(mean);
-  }
-  return means;
-}
-
 }  // namespace
 
 double calc_mean(const std::vector<double>& values) {
@@ -183,57 +144,6 @@ std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const R
     if (drift.has_value()) drifts.push_back(*drift);
   }
   return drifts;
-}
-
-std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
-                                                  const std::map<std::size_t, double>& deviations) {
-  const std::map<std::string, HeadingGroups> sessions = group_by_heading(data, deviations);
-  double runs = 0.0, cells = 0.0, within = 0.0;
-  for (const auto& [name, headings] : sessions) {
-    for (const auto& [heading, values] : headings) {
-      const double mean = calc_mean(values);
-      for (const double value : values) within += (value - mean) * (value - mean);
-      runs += static_cast<double>(values.size());
-      cells += 1.0;
-    }
-  }
-  const std::vector<SessionMean> means = list_session_means(sessions);
-  const double between_freedom = static_cast<double>(means.size()) - 1.0;
-  const double within_freedom = runs - cells;
-  if (between_freedom < 1.0 || within_freedom < 1.0) return std::nullopt;
-  double weights = 0.0, weighted = 0.0, plain = 0.0;
-  for (const SessionMean& mean : means) {
-    weights += mean.weight;
-    weighted += mean.weight * mean.value;
-    plain += mean.value / static_cast<double>(means.size());
-  }
-  double between = 0.0, squares = 0.0;
-  for (const SessionMean& mean : means) {
-    between += mean.weight * std::pow(mean.value - weighted / weights, 2);
-    squares += std::pow(mean.value - plain, 2);
-  }
-  SessionDifference difference;
-  difference.relative_sd = std::sqrt(squares / between_freedom);
-  if (!(within > 0.0)) {
-    difference.p_value = between > 0.0 ? 0.0 : 1.0;
-    return difference;
-  }
-  const boost::math::fisher_f distribution(between_freedom, within_freedom);
-  difference.p_value =
-      boost::math::cdf(boost::math::complement(distribution, between / between_freedom / (within / within_freedom)));
-  return difference;
-}
-
-std::optional<std::string> doubt_session_difference(const CoastdownData& data,
-                                                    const std::map<std::size_t, double>& deviations) {
-  constexpr double kUnlikely = 0.01;     // Assumed
-  constexpr double kLeastShare = 0.001;  // Assumed: less matters to no one, and may be rounding
-  const std::optional<SessionDifference> found = compare_sessions(data, deviations);
-  if (!found.has_value() || found->p_value >= kUnlikely || found->relative_sd < kLeastShare) return std::nullopt;
-  return fmt::format(
-      "the sessions differ by a standard deviation of {:.1f} % of the force, more than their noise explains; where "
-      "they cover different speeds this bends the curve",
-      100.0 * found->relative_sd);
 }
 
 std::vector<PairPrecision> find_pair_precisions(const CoastdownData& data, const RoadLoadFit& fit) {

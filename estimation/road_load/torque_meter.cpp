@@ -416,6 +416,7 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   finish_procedure(options, procedure);
   put_fitted(procedure);
   doubt_units(procedure);
+  doubt_sessions(file.runs, windy, procedure);
   doubt_recorded_conditions(file.runs, "wind_m_s", false, procedure);
   const models::RoadLoad<double> load{procedure.road_load(0), procedure.road_load(1), procedure.road_load(2)};
   if (const auto doubt = doubt_torque_scale(load, procedure.correction.mass_kg, procedure.wheel_radius_m)) {

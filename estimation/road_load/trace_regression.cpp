@@ -10,7 +10,7 @@
 #include "estimation/road_load/coastdown_units.h"
 #include "estimation/road_load/recorded_wind.h"
 #include "estimation/road_load/road_load_procedure.h"
-#include "estimation/road_load/variance_components.h"
+#include "estimation/road_load/trace_fit.h"
 #include "estimation/run_checks/robust_statistics.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -27,8 +27,6 @@ constexpr double kStretch_s = 5.0;              // Assumed: of the means whose d
 constexpr std::size_t kFewestStretches = 3;     // of a run
 constexpr double kLeastYaw_rad = 0.0175;        // Assumed: 1 deg, below which yaw says nothing
 constexpr double kSpeedScale_m_s = 20.0;        // makes the components of variance alike in size
-
-enum TraceScatter : Index { kSpeedNoise, kWhiteForce, kForceOfRun, kSlopeOfRun, kTraceComponents };
 
 /// What the equation of motion needs at one sample.
 struct TraceSample {
@@ -241,29 +239,6 @@ LinearBlock make_trace_block(const TraceRun& trace, const TraceTerms& terms, dou
     block.patterns[kSlopeOfRun] = speed * speed.transpose() / (kSpeedScale_m_s * kSpeedScale_m_s);
   }
   return block;
-}
-
-/// Coefficients and components of variance by turns.
-LinearEstimate iterate_blocks(const std::vector<LinearBlock>& blocks) {
-  constexpr int kMostTurns = 60;
-  constexpr double kLeastNoise_m_s = 1e-4;  // Assumed: far below any sensor's, so that data without noise have weights
-  constexpr double kStep = 1e-3;
-  const auto count = static_cast<Index>(blocks.front().patterns.size());
-  VectorXd floors = VectorXd::Zero(count);
-  floors(kSpeedNoise) = kLeastNoise_m_s * kLeastNoise_m_s;
-  Eigen::Vector4d start(0.05 * 0.05, 10.0, 1.0, 1.0);  // Assumed: where the turns begin
-  VectorXd components = start.head(count);
-  LinearEstimate estimate;
-  for (int turn = 0; turn < kMostTurns; ++turn) {
-    estimate = step_variance_components(blocks, components, floors);
-    VectorXd wanted = estimate.components;
-    wanted(kSpeedNoise) = std::max(wanted(kSpeedNoise), 0.1 * components(kSpeedNoise));
-    const bool settled =
-        ((wanted - components).array().abs() <= kStep * wanted.array().max(components.array()) + 1e-12).all();
-    components = turn < 10 ? wanted : VectorXd(0.5 * (wanted + components));
-    if (settled) break;
-  }
-  return estimate;
 }
 
 /// The wind that the air at the vehicle means, mean by mean, against and across the + heading.
@@ -502,6 +477,17 @@ void put_estimate(const LinearEstimate& estimate, const TraceTerms& terms, const
       {"run_to_run_N", "scatter from run to run, N", std::sqrt(estimate.components(kForceOfRun)), 0.0});
 }
 
+void put_session_scatter(const TraceFit& fit, RoadLoadProcedure& procedure) {
+  if (fit.session_force_N > 0.0) {
+    procedure.further.push_back(
+        {"session_to_session_N", "scatter from session to session, N", fit.session_force_N, 0.0});
+  }
+  if (fit.session_share > 0.0) {
+    procedure.further.push_back({"session_to_session_share", "scatter from session to session, of the force",
+                                 fit.session_share, 0.0});
+  }
+}
+
 /// Runs as traces, cut to the speeds of the options; names of all runs go to the procedure.
 std::vector<TraceRun> cut_traces(const CoastdownData& data, const RoadLoadProcedureOptions& options,
                                  RoadLoadProcedure& procedure) {
@@ -589,11 +575,15 @@ RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoad
   const TraceTerms terms = choose_terms(file.data, winds, on_board, traces, options, procedure);
   const double mass_kg = procedure.correction.mass_kg;
   std::vector<LinearBlock> blocks;
+  std::vector<std::string> sessions;
   for (const TraceRun& trace : traces) {
+    sessions.push_back(file.data.runs[trace.index].session);
     blocks.push_back(make_trace_block(trace, terms, mass_kg, mass_kg + procedure.rotating_mass_kg));
   }
-  const LinearEstimate estimate = iterate_blocks(blocks);
+  const TraceFit fit = fit_trace_blocks(blocks, sessions);
+  const LinearEstimate& estimate = fit.estimate;
   put_estimate(estimate, terms, options, procedure);
+  put_session_scatter(fit, procedure);
   procedure.tested.measured = procedure.as_tested;
   procedure.tested.correction = procedure.correction;
   procedure.tested.correction.wind_m_s = 0.0;  // it is in the equation of motion
@@ -607,6 +597,7 @@ RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoad
     }
   }
   doubt_units(procedure);
+  doubt_sessions(file.data, {}, procedure);
   doubt_recorded_conditions(winds, on_board ? "air_speed_km_h" : "wind_m_s", !terms.has_slope, procedure);
   return procedure;
 }

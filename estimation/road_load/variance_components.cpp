@@ -166,6 +166,24 @@ LinearEstimate solve_weighted(const std::vector<LinearBlock>& blocks, const Vect
   return estimate;
 }
 
+LinearBlock join_blocks(const std::vector<LinearBlock>& parts) {
+  Eigen::Index n = 0;
+  for (const LinearBlock& part : parts) n += part.y.size();
+  LinearBlock joined{Eigen::VectorXd(n), Eigen::MatrixXd(n, parts.front().X.cols()), {}};
+  joined.patterns.assign(parts.front().patterns.size(), Eigen::MatrixXd::Zero(n, n));
+  Eigen::Index row = 0;
+  for (const LinearBlock& part : parts) {
+    const Eigen::Index rows = part.y.size();
+    joined.y.segment(row, rows) = part.y;
+    joined.X.middleRows(row, rows) = part.X;
+    for (std::size_t i = 0; i < part.patterns.size(); ++i) {
+      joined.patterns[i].block(row, row, rows, rows) = part.patterns[i];
+    }
+    row += rows;
+  }
+  return joined;
+}
+
 LinearEstimate step_variance_components(const std::vector<LinearBlock>& blocks, const VectorXd& components,
                                         const VectorXd& floors) {
   constexpr double kUndecided = 1e-6;  // share of a pattern that the coefficients leave. Assumed

@@ -24,6 +24,13 @@ struct LinearEstimate {
   double log_likelihood = 0.0;      // restricted, at the components given to the step, without its constant
 };
 
+/// By how much the log likelihood with sessions that differ by a share of the force has to be above that with the same
+/// force at all speeds, to be taken. Assumed: log 20; the temperature of tires often differs, which is a constant force
+constexpr double kClearlyMoreLikely = 3.0;
+
+/// Blocks as one, without scatter between them.
+LinearBlock join_blocks(const std::vector<LinearBlock>& parts);
+
 /// One step towards the restricted maximum likelihood, and the estimate there.
 /// Equation  V = sum s_i V_i;  beta = (X'WX)^-1 X'W y,  W = V^-1;  sum_j tr(P V_i P V_j) s_j = y'P V_i P y,
 ///           P = W - W X (X'WX)^-1 X'W;  degrees of freedom 2 var^2 / Var(var);

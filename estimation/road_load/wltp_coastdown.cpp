@@ -173,23 +173,6 @@ void check_overlaps(RoadLoadProcedure& procedure) {
                               found, "10 N or 5 %", kClause});
 }
 
-/// Mean relative deviation of each run from the fitted road load, whether its pair is rejected or not, but without runs
-/// that are rejected for their wind.
-std::map<std::size_t, double> find_point_deviations(const std::vector<ReferenceRun>& runs,
-                                                    const std::vector<std::string>& windy,
-                                                    const std::vector<ProcedurePoint>& points) {
-  std::map<std::size_t, double> deviations;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (std::find(windy.begin(), windy.end(), runs[i].name) != windy.end()) continue;
-    std::vector<double> shares;
-    for (const ProcedurePoint& point : points) {
-      if (point.run == runs[i].name) shares.push_back(point.measured / point.fitted - 1.0);
-    }
-    if (!shares.empty()) deviations[i] = calc_mean(shares);
-  }
-  return deviations;
-}
-
 }  // namespace
 
 RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const RoadLoadProcedureOptions& options) {
@@ -235,8 +218,7 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
     }
   }
   put_fitted(procedure);
-  const auto doubt = doubt_session_difference(file.data, find_point_deviations(runs, windy, procedure.points));
-  if (doubt.has_value()) procedure.warnings.push_back(*doubt);
+  doubt_sessions(file.data, windy, procedure);  // also of rejected pairs
   doubt_units(procedure);
   doubt_recorded_conditions(file.data, "wind_m_s", false, procedure);
   return procedure;

@@ -1,0 +1,259 @@
+// What is said of sessions that differ, and what is not said of those that do not.
+#include "estimation/road_load/session_differences.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "estimation/road_load/checked_road_load.h"
+#include "estimation/road_load/road_load_procedure.h"
+#include "sim/core/random.h"
+#include "sim/core/units.h"
+#include "tests/support/coastdown_study.h"
+#include "tests/support/fit_study.h"
+
+using namespace rollrig;
+using estimation::CoastdownData;
+using estimation::CoastdownFile;
+using estimation::CoastdownRun;
+using estimation::RoadLoadFit;
+using estimation::RoadLoadProcedure;
+
+namespace {
+
+/// Of how many sets the fit says that their sessions differ.
+struct Doubted {
+  int same = 0;
+  int apart = 0;  // of the first ten sets, with one session 5 % slower
+};
+
+Doubted count_doubted(int sets) {
+  Doubted doubted;
+  for (int seed = 1; seed <= sets; ++seed) {
+    tests::CoastdownStudy study;
+    study.pairs = 9;
+    study.interval_s = 0.5;
+    study.run_force_sd_N = 3.0;
+    CoastdownData data = tests::simulate_coastdowns(study, static_cast<std::uint64_t>(seed));
+    const auto count = [&data] {
+      estimation::RoadLoadFitOptions options;
+      options.mass_kg = 2100.0;
+      for (const std::string& warning : estimation::fit_road_load(data, options).warnings) {
+        if (warning.find("the sessions differ") != std::string::npos) return 1;
+      }
+      return 0;
+    };
+    for (std::size_t i = 0; i < data.runs.size(); ++i) data.runs[i].session = std::to_string(i / 6);
+    doubted.same += count();
+    if (seed > 10) continue;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (double& time_s : data.runs[i].time_s) time_s *= 1.05;
+    }
+    doubted.apart += count();
+  }
+  return doubted;
+}
+
+/// Two sessions of the same kind, one after the other.
+CoastdownData join_sessions(const tests::CoastdownStudy& first, const tests::CoastdownStudy& second) {
+  CoastdownData data = tests::simulate_coastdowns(first, 1);
+  for (auto& run : tests::simulate_coastdowns(second, 2).runs) {
+    data.runs.push_back(run);
+    data.runs.back().session = "pm";
+  }
+  return data;
+}
+
+RoadLoadFit fit_study(const CoastdownData& data) {
+  estimation::RoadLoadFitOptions options;
+  options.mass_kg = tests::CoastdownStudy().mass_kg;
+  return estimation::fit_road_load(data, options);
+}
+
+/// Of a fit or a procedure.
+template <class T>
+bool has_session_warning(const T& fit, const std::string& text) {
+  return std::any_of(fit.warnings.begin(), fit.warnings.end(),
+                     [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+}
+
+bool holds_both(const RoadLoadFit& fit, int coefficient, double low, double high) {
+  const auto [lower, upper] = fit.interval_95(coefficient);
+  return lower <= low && high <= upper;
+}
+
+CoastdownFile to_file(const CoastdownData& data) {
+  CoastdownFile file;
+  file.data = data;
+  file.is_trace = true;
+  return file;
+}
+
+RoadLoadFit fit_checked(const CoastdownData& data) {
+  estimation::RoadLoadFitOptions options;
+  options.mass_kg = tests::CoastdownStudy().mass_kg;
+  CoastdownFile file = to_file(data);
+  return estimation::fit_checked_road_load(file, options);
+}
+
+/// The speeds of a session divided by `factor`, as if they were written in another unit.
+CoastdownData with_speeds_over(CoastdownData data, const std::string& session, double factor) {
+  for (CoastdownRun& run : data.runs) {
+    if (run.session != session) continue;
+    for (double& speed_m_s : run.speed_m_s) speed_m_s /= factor;
+  }
+  return data;
+}
+
+/// Runs that scatter, twenty sessions of one pair; every other one with `factor` times the force.
+CoastdownData make_sessions_of_pairs(double factor, double wind_sd_m_s, std::uint64_t seed) {
+  CoastdownData data;
+  RandomStream random(seed, "winds of sessions");
+  for (std::uint64_t session = 0; session < 20; ++session) {
+    tests::CoastdownStudy study;
+    study.pairs = 1;
+    study.interval_s = 0.5;
+    study.run_force_sd_N = 3.0;
+    study.wind_m_s = wind_sd_m_s * random.normal();
+    if (session % 2 == 1) {
+      study.load = {factor * study.load.A_N, factor * study.load.B_N_s_per_m, factor * study.load.C_N_s2_per_m2};
+    }
+    for (CoastdownRun& run : tests::simulate_coastdowns(study, 100 * seed + session).runs) {
+      run.session = std::to_string(session);
+      data.runs.push_back(run);
+    }
+  }
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("sessions that differ by a share of the force: it is said, and the intervals hold both", "[fast]") {
+  tests::CoastdownStudy study;
+  study.pairs = 3;
+  study.run_force_sd_N = 1.0;
+  tests::CoastdownStudy high = study;
+  high.load = {1.2 * study.load.A_N, 1.2 * study.load.B_N_s_per_m, 1.2 * study.load.C_N_s2_per_m2};
+  const CoastdownData data = join_sessions(study, high);
+  const RoadLoadFit fit = fit_study(data);
+  // 1 and 1.2 times the same: a standard deviation of 0.1414 about a mean of 1.1
+  CHECK(fit.scatter.session_share.value_or(0.0) == Approx(0.1414 / 1.1).epsilon(0.1));
+  CHECK_FALSE(fit.scatter.session_force_N.has_value());
+  CHECK(has_session_warning(fit, "the sessions differ by a standard deviation of 12."));
+  CHECK(holds_both(fit, 0, study.load.A_N, high.load.A_N));
+  CHECK(holds_both(fit, 2, study.load.C_N_s2_per_m2, high.load.C_N_s2_per_m2));
+}
+
+TEST_CASE("sessions that differ by the same force at all speeds widen A, and not C", "[fast]") {
+  tests::CoastdownStudy study;
+  study.pairs = 3;
+  study.run_force_sd_N = 1.0;
+  tests::CoastdownStudy high = study;
+  high.load.A_N += 20.0;
+  const RoadLoadFit fit = fit_study(join_sessions(study, high));
+  CHECK(fit.scatter.session_force_N.value_or(0.0) == Approx(20.0 / std::sqrt(2.0)).epsilon(0.1));
+  CHECK_FALSE(fit.scatter.session_share.has_value());
+  CHECK(holds_both(fit, 0, study.load.A_N, high.load.A_N));
+  CHECK(fit.sd(2) < 0.005 * fit.load.C_N_s2_per_m2);
+}
+
+TEST_CASE("sessions that do not differ are hardly ever doubted, those 5 % apart mostly", "[slow]") {
+  const Doubted doubted = count_doubted(25);
+  CHECK(doubted.same <= 2);
+  CHECK(doubted.apart >= 6);  // of ten: 7
+}
+
+TEST_CASE("sessions that do not differ are doubted in one set of a hundred", "[weekly]") {
+  CHECK(count_doubted(100).same <= 4);
+}
+
+TEST_CASE("a session in mph is named with its unit by every method, and none of its runs is odd", "[fast]") {
+  tests::CoastdownStudy study;
+  study.pairs = 4;
+  study.run_force_sd_N = 3.0;
+  study.run_wind_sd_m_s = 0.2;
+  study.from_km_h = 138.0;
+  study.to_km_h = 12.0;
+  const CoastdownData data = with_speeds_over(join_sessions(study, study), "pm", kMph_m_s * kKmhPerMs);
+  const std::string text = "if its values of speed_km_h are in mph";
+  const RoadLoadFit fit = fit_checked(data);
+  CHECK(has_session_warning(fit, "session 'pm'"));
+  CHECK(has_session_warning(fit, text));
+  CHECK(fit.doubts.empty());
+  RoadLoadProcedureOptions options;
+  options.mass_kg = study.mass_kg;
+  options.kind = RoadLoadProcedureKind::kJ1263;
+  CHECK(has_session_warning(estimation::evaluate_traces(to_file(data), options), text));
+}
+
+TEST_CASE("the one session that is not in m/s is told from the others", "[fast]") {
+  tests::CoastdownStudy study;
+  study.pairs = 2;
+  CoastdownData data = join_sessions(study, study);
+  for (CoastdownRun run : tests::simulate_coastdowns(study, 3).runs) {
+    run.session = "night";
+    data.runs.push_back(run);
+  }
+  data = with_speeds_over(with_speeds_over(data, "pm", kKmhPerMs), "night", kKmhPerMs);
+  const RoadLoadFit fit = fit_checked(data);
+  CHECK(has_session_warning(fit, "are in km/h and those of the others in m/s"));
+}
+
+TEST_CASE("a session with another shape of its road load has no odd run, and no other unit", "[fast]") {
+  for (const double shape : {0.62, 0.9, 1.4}) {
+    tests::CoastdownStudy study;
+    study.run_force_sd_N = 3.0;
+    tests::CoastdownStudy other = study;
+    other.load.A_N *= shape;
+    other.load.C_N_s2_per_m2 /= std::sqrt(shape);
+    INFO(shape);
+    const RoadLoadFit fit = fit_checked(join_sessions(study, other));
+    CHECK(fit.doubts.empty());
+    CHECK_FALSE(has_session_warning(fit, "are they?"));
+  }
+}
+
+TEST_CASE("a braked run is named beside a session that differs", "[fast]") {
+  tests::CoastdownStudy study;
+  study.run_force_sd_N = 3.0;
+  tests::CoastdownStudy other = study;
+  other.load.A_N *= 1.3;
+  CoastdownData data = join_sessions(study, other);
+  for (double& time_s : data.runs[13].time_s) time_s *= 0.75;
+  const RoadLoadFit fit = fit_checked(data);
+  REQUIRE(fit.doubts.size() == 1);
+  CHECK(fit.doubts[0].runs == std::vector<std::string>{data.runs[13].id});
+  CHECK(fit.doubts[0].relative == Approx(1.0 / 0.75 - 1.0).epsilon(0.2));
+}
+
+TEST_CASE("sessions of one pair are compared, by what their headings have in common", "[fast]") {
+  const RoadLoadFit fit = fit_study(make_sessions_of_pairs(1.1, 0.3, 1));
+  CHECK(has_session_warning(fit, "the sessions differ by a standard deviation of"));
+}
+
+TEST_CASE("sessions of one pair with winds of their own do not differ", "[slow]") {
+  int said = 0;
+  constexpr std::uint64_t kSets = 30;
+  for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
+    said += has_session_warning(fit_study(make_sessions_of_pairs(1.0, 0.3, seed)), "the sessions differ") ? 1 : 0;
+  }
+  CHECK(said <= 2);
+}
+
+TEST_CASE("the session that is farthest from the others is named, with its sign", "[fast]") {
+  // level of each run; sessions a, b and c, the last 3 % below
+  CoastdownData data;
+  std::map<std::size_t, double> deviations;
+  for (std::size_t i = 0; i < 12; ++i) {
+    data.runs.emplace_back();
+    data.runs.back().session = std::string(1, static_cast<char>('a' + i / 4));
+    data.runs.back().heading = i % 2 == 0 ? +1 : -1;
+    deviations[i] = (i / 4 == 2 ? -0.03 : 0.0) + (i / 2 % 2 == 0 ? 0.001 : -0.001);
+  }
+  const auto found = estimation::compare_sessions(data, deviations);
+  REQUIRE(found.has_value());
+  CHECK(found->farthest == "c");
+  CHECK(found->relative == Approx(-0.03));
+  CHECK(found->relative_sd == Approx(0.03 / std::sqrt(3.0)));
+  CHECK(found->p_value < 1e-6);
+}
