@@ -253,7 +253,10 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
         "too few runs to tell how they differ from run to run: the standard deviations are those of the noise along a "
         "run, and too small");
   }
-  if (const auto doubt = doubt_session_difference(data, find_run_deviations(fit))) fit.warnings.push_back(*doubt);
+  const SessionWinds winds = fit.winds.empty() ? SessionWinds::kInDeviations : SessionWinds::kFitted;
+  if (const auto doubt = doubt_session_difference(data, find_run_deviations(fit), winds)) {
+    fit.warnings.push_back(*doubt);
+  }
   doubt_drag_area(options, fit);
   if (!options.mass_kg.has_value()) {
     fit.warnings.push_back("no mass given: A, B and C are per unit of effective mass");

@@ -311,7 +311,9 @@ void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& w
   for (const RunResistance& run : runs) {
     deviations[run.run] = calc_mean_deviation(name_of_run(data.runs[run.run], data), procedure);
   }
-  if (auto doubt = doubt_session_difference(data, deviations)) procedure.warnings.push_back(std::move(*doubt));
+  if (auto doubt = doubt_session_difference(data, deviations, SessionWinds::kInDeviations)) {
+    procedure.warnings.push_back(std::move(*doubt));
+  }
   for (std::string& doubt : doubt_session_units(data, runs)) procedure.warnings.push_back(std::move(doubt));
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 #include <Eigen/QR>
@@ -27,12 +28,14 @@ std::map<std::string, HeadingGroups> group_by_heading(const CoastdownData& data,
   return sessions;
 }
 
-/// Those that have as many headings as the session that has most: a slope or a wind shifts a heading alone.
+/// Those that have all headings that there are: a slope or a wind shifts a heading alone.
 std::map<std::string, HeadingGroups> keep_whole(std::map<std::string, HeadingGroups> sessions) {
-  std::size_t most = 0;
-  for (const auto& [name, headings] : sessions) most = std::max(most, headings.size());
+  std::set<int> all;
+  for (const auto& [name, headings] : sessions) {
+    for (const auto& [heading, values] : headings) all.insert(heading);
+  }
   for (auto session = sessions.begin(); session != sessions.end();) {
-    session = session->second.size() < most ? sessions.erase(session) : std::next(session);
+    session = session->second.size() < all.size() ? sessions.erase(session) : std::next(session);
   }
   return sessions;
 }
@@ -197,13 +200,14 @@ std::optional<std::string> doubt_unit_of(const std::string& name, const ForceCur
 }  // namespace
 
 std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
-                                                  const std::map<std::size_t, double>& deviations) {
+                                                  const std::map<std::size_t, double>& deviations,
+                                                  SessionWinds winds) {
   const std::map<std::string, HeadingGroups> all = group_by_heading(data, deviations);
   const std::map<std::string, HeadingGroups> whole = keep_whole(all);
   const std::vector<SessionMean> means = list_session_means(whole);
   const double between_freedom = static_cast<double>(means.size()) - 1.0;
   Scatter runs = find_scatter_within(all);
-  if (runs.freedom < 1.0) runs = find_scatter_of_pairs(whole);
+  if (runs.freedom < 1.0 && winds == SessionWinds::kInDeviations) runs = find_scatter_of_pairs(whole);
   if (between_freedom < 1.0 || runs.freedom < 1.0) return std::nullopt;
   double weights = 0.0, weighted = 0.0, plain = 0.0;
   for (const SessionMean& mean : means) {
@@ -230,10 +234,11 @@ std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
 }
 
 std::optional<std::string> doubt_session_difference(const CoastdownData& data,
-                                                    const std::map<std::size_t, double>& deviations) {
+                                                    const std::map<std::size_t, double>& deviations,
+                                                    SessionWinds winds) {
   constexpr double kUnlikely = 0.01;     // Assumed
   constexpr double kLeastShare = 0.001;  // Assumed: less matters to no one, and may be rounding
-  const std::optional<SessionDifference> found = compare_sessions(data, deviations);
+  const std::optional<SessionDifference> found = compare_sessions(data, deviations, winds);
   if (!found.has_value() || found->p_value >= kUnlikely || found->relative_sd < kLeastShare) return std::nullopt;
   return fmt::format(
       "the sessions differ by a standard deviation of {:.1f} % of the force, more than their noise explains: that of "

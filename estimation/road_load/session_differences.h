@@ -18,12 +18,16 @@ struct SessionDifference {
   double relative = 0.0;     // by how much its mean force is above theirs, over the fitted force
 };
 
+/// Whether the fit that the deviations are from has a wind for each session.
+enum class SessionWinds { kInDeviations, kFitted };
+
 /// Absent where fewer than two sessions have all headings that there are, or nothing shows the scatter of runs. A slope
 /// or a wind that shifts the headings apart does not count, however many runs each heading has.
 /// Equation  F = (sum_s w_s (g_s - g)^2/(k - 1)) / s^2, F distribution with k - 1 and nu degrees of freedom;
 ///           g_s = mean over h of g_sh; 1/w_s = sum_h 1/n_sh / (headings)^2; g = sum w_s g_s / sum w_s;
 ///           s^2 = sum_r (g_r - g_sh)^2/nu, nu = n - c; where each session has one run of each heading instead
-///           s^2 = sum_sh (g_sh - g_s - g_h + mean g_sh)^2/nu, nu = (k - 1)(headings - 1), g_h mean over s of g_sh;
+///           s^2 = sum_sh (g_sh - g_s - g_h + mean g_sh)^2/nu, nu = (k - 1)(headings - 1), g_h mean over s of g_sh
+///           (not where winds are fitted, which take up what the headings of a session differ by);
 ///           relative_sd^2 = sum_s (g_s - mean g_s)^2/(k - 1)
 /// Symbols   g_r mean of (force - fit)/fit of run r, here `deviations`; g_sh mean of the n_sh runs of session s with
 ///           heading h; k sessions, c pairs of session and heading, n runs
@@ -31,11 +35,13 @@ struct SessionDifference {
 /// Validity  with one run of each heading, the wind of a session is a part of s
 /// Checked   tests/estimation/session_differences_test.cpp
 std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
-                                                  const std::map<std::size_t, double>& deviations);
+                                                  const std::map<std::size_t, double>& deviations,
+                                                  SessionWinds winds);
 
 /// A warning where that p value is below 0.01 and the standard deviation is at least 0.1 %.
 std::optional<std::string> doubt_session_difference(const CoastdownData& data,
-                                                    const std::map<std::size_t, double>& deviations);
+                                                    const std::map<std::size_t, double>& deviations,
+                                                    SessionWinds winds);
 
 /// Sessions whose forces over speed agree with those of the others if their speeds are in another unit (mph, m/s), and
 /// do not agree as they stand.

@@ -8,8 +8,8 @@
 
 namespace rollrig::estimation {
 
-/// Kinds of scatter within a block, that is, a run: of speeds, along the run, from run to run (constant; in proportion to
-/// speed, where the regression has B).
+/// Kinds of scatter within a block, that is, a run: of speeds, along the run, from run to run (constant; in proportion
+/// to speed, where the regression has B).
 enum TraceScatter : Eigen::Index { kSpeedNoise, kWhiteForce, kForceOfRun, kSlopeOfRun, kTraceComponents };
 
 struct TraceFit {
@@ -18,8 +18,8 @@ struct TraceFit {
   double session_share = 0.0;    // the same share of the force; one of the two is 0
 };
 
-/// Coefficients and components of variance, a block for each run. Several sessions, of which one has two runs, scatter as
-/// well: by a force that is the same at all speeds, or by a share of the force where that is clearly more likely.
+/// Coefficients and components of variance, a block for each run. Several sessions, of which one has two runs, scatter
+/// as well: by a force that is the same at all speeds, or by a share of the force where that is clearly more likely.
 /// Equation  V = D + s f f' for the runs of a session, D by the components of the runs
 /// Symbols   s variance between sessions; f ones, or forces of the fit [N]; `sessions`: name of that of each block
 /// Method    D from a fit in which each session has a term of this shape; s by the restricted likelihood with that D

@@ -96,6 +96,15 @@ RoadLoadFit fit_checked(const CoastdownData& data) {
   return estimation::fit_checked_road_load(file, options);
 }
 
+/// By SAE J1263.
+RoadLoadProcedure fit_traces(const CoastdownData& data) {
+  RoadLoadProcedureOptions options;
+  options.mass_kg = tests::CoastdownStudy().mass_kg;
+  options.rotating_mass_kg = 63.0;
+  options.kind = RoadLoadProcedureKind::kJ1263;
+  return estimation::evaluate_traces(to_file(data), options);
+}
+
 /// The speeds of a session divided by `factor`, as if they were written in another unit.
 CoastdownData with_speeds_over(CoastdownData data, const std::string& session, double factor) {
   for (CoastdownRun& run : data.runs) {
@@ -180,10 +189,7 @@ TEST_CASE("a session in mph is named with its unit by every method, and none of 
   CHECK(has_session_warning(fit, "session 'pm'"));
   CHECK(has_session_warning(fit, text));
   CHECK(fit.doubts.empty());
-  RoadLoadProcedureOptions options;
-  options.mass_kg = study.mass_kg;
-  options.kind = RoadLoadProcedureKind::kJ1263;
-  CHECK(has_session_warning(estimation::evaluate_traces(to_file(data), options), text));
+  CHECK(has_session_warning(fit_traces(data), text));
 }
 
 TEST_CASE("the one session that is not in m/s is told from the others", "[fast]") {
@@ -227,17 +233,53 @@ TEST_CASE("a braked run is named beside a session that differs", "[fast]") {
 }
 
 TEST_CASE("sessions of one pair are compared, by what their headings have in common", "[fast]") {
-  const RoadLoadFit fit = fit_study(make_sessions_of_pairs(1.1, 0.3, 1));
-  CHECK(has_session_warning(fit, "the sessions differ by a standard deviation of"));
+  CHECK(has_session_warning(fit_traces(make_sessions_of_pairs(1.1, 0.3, 1)), "the sessions differ"));
 }
 
-TEST_CASE("sessions of one pair with winds of their own do not differ", "[slow]") {
-  int said = 0;
-  constexpr std::uint64_t kSets = 30;
-  for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
-    said += has_session_warning(fit_study(make_sessions_of_pairs(1.0, 0.3, seed)), "the sessions differ") ? 1 : 0;
+TEST_CASE("sessions of one pair, or of one run, with winds of their own do not differ", "[slow]") {
+  int pairs = 0, runs = 0, fitted = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    CoastdownData data = make_sessions_of_pairs(1.0, 0.3, seed);
+    pairs += has_session_warning(fit_traces(data), "the sessions differ") ? 1 : 0;
+    fitted += has_session_warning(fit_study(data), "the sessions differ") ? 1 : 0;
+    for (std::size_t i = 0; i < data.runs.size(); ++i) data.runs[i].session = std::to_string(i);
+    runs += has_session_warning(fit_traces(data), "the sessions differ") ? 1 : 0;
   }
-  CHECK(said <= 2);
+  CHECK(pairs <= 2);
+  CHECK(fitted == 0);
+  CHECK(runs == 0);
+}
+
+TEST_CASE("traces of sessions that differ by a share: the intervals of f0 and f2 hold the truth at their rate",
+          "[slow]") {
+  int f0 = 0, f2 = 0;
+  constexpr int kSets = 60;
+  for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
+    RandomStream random(seed, "shares of sessions");
+    CoastdownData data;
+    for (const char* session : {"a", "b", "c"}) {
+      const double share = 1.0 + 0.04 * random.normal();
+      tests::CoastdownStudy study;
+      study.pairs = 3;
+      study.interval_s = 0.5;
+      study.run_force_sd_N = 3.0;
+      study.load = {120.0 * share, 0.0, 0.03 * 12.96 * share};
+      const std::uint64_t seed_of_session = 10 * seed + static_cast<std::uint64_t>(*session);
+      for (CoastdownRun& run : tests::simulate_coastdowns(study, seed_of_session).runs) {
+        run.session = session;
+        data.runs.push_back(run);
+      }
+    }
+    const RoadLoadProcedure found = fit_traces(data);
+    const auto holds = [&found](int i, double truth) {
+      return found.interval_95(i)[0] <= truth && truth <= found.interval_95(i)[1] ? 1 : 0;
+    };
+    f0 += holds(0, 120.0);
+    f2 += holds(2, 0.03 * 12.96);
+  }
+  INFO(f0 << " " << f2);
+  CHECK(f0 >= 53);  // 57 on average; fewer than 53 in one of fifty
+  CHECK(f2 >= 53);
 }
 
 TEST_CASE("the session that is farthest from the others is named, with its sign", "[fast]") {
@@ -250,7 +292,7 @@ TEST_CASE("the session that is farthest from the others is named, with its sign"
     data.runs.back().heading = i % 2 == 0 ? +1 : -1;
     deviations[i] = (i / 4 == 2 ? -0.03 : 0.0) + (i / 2 % 2 == 0 ? 0.001 : -0.001);
   }
-  const auto found = estimation::compare_sessions(data, deviations);
+  const auto found = estimation::compare_sessions(data, deviations, estimation::SessionWinds::kFitted);
   REQUIRE(found.has_value());
   CHECK(found->farthest == "c");
   CHECK(found->relative == Approx(-0.03));
