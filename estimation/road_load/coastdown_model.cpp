@@ -102,11 +102,10 @@ std::vector<FitRun> make_fit_runs(const CoastdownData& data, const RoadLoadFitOp
 }
 
 double CoastdownModel::wind_m_s(const FitRun& run, const Eigen::VectorXd& coefficients) const {
-  constexpr double kMostWind_m_s = 15.0;  // Assumed: nobody coasts down in more
   if (run.wind_column < 0) return 0.0;
   const double drag = drag_N_s2_per_m2_.value_or(coefficients(2));
   const double twice = coefficients(run.wind_column);
-  return std::abs(twice) < 2.0 * kMostWind_m_s * drag ? twice / (2.0 * drag) : 0.0;
+  return std::abs(twice) < 2.0 * kMostFittedWind_m_s * drag ? twice / (2.0 * drag) : 0.0;
 }
 
 // The wind w that d_1 = 2 C w means adds C w^2 = d_1^2/(4 C) to both headings.

@@ -44,6 +44,9 @@ struct FitRun {
 std::vector<FitRun> make_fit_runs(const CoastdownData& data, const RoadLoadFitOptions& options,
                                   double effective_mass_kg);
 
+/// Above it, the square of a wind that the headings show is not subtracted. Assumed: nobody coasts down in more
+constexpr double kMostFittedWind_m_s = 15.0;
+
 /// Coefficients: A, B, C, then d_0 (where headings are used) and one d_1 a session.
 class CoastdownModel {
  public:

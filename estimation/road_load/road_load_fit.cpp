@@ -123,16 +123,21 @@ void put_wind_and_slope(const CoastdownProblem& problem, const RoadLoadFitOption
   }
 }
 
-/// A, B, C of each heading alone, with the scatter of the whole.
+/// A, B, C of each heading alone, with the scatter of the whole, that of sessions too.
 void put_headings(const CoastdownProblem& problem, const RoadLoadFitOptions& options, const VectorXd& coefficients,
                   const VectorXd& components, RoadLoadFit& fit) {
   for (const int heading : {+1, -1}) {
     CoastdownProblem part{{}, CoastdownModel(problem.model.mass_kg(), false, 3, given_drag(options)), {}, {}};
-    for (const FitRun& run : problem.runs) {
-      if (run.heading != heading) continue;
-      part.runs.push_back(run);
-      part.runs.back().wind_column = -1;
-      part.groups.push_back({part.runs.size() - 1});
+    part.session_shape = problem.session_shape;
+    for (const std::vector<std::size_t>& group : problem.groups) {
+      std::vector<std::size_t> of_heading;
+      for (const std::size_t i : group) {
+        if (problem.runs[i].heading != heading) continue;
+        of_heading.push_back(part.runs.size());
+        part.runs.push_back(problem.runs[i]);
+        part.runs.back().wind_column = -1;
+      }
+      if (!of_heading.empty()) part.groups.push_back(of_heading);
     }
     if (part.runs.empty()) continue;
     try {
@@ -228,6 +233,16 @@ void doubt_drag_area(const RoadLoadFitOptions& options, RoadLoadFit& fit) {
       given_m2, per_C * fit.load.C_N_s2_per_m2));
 }
 
+void doubt_fitted_winds(RoadLoadFit& fit) {
+  for (const auto& wind : fit.winds) {
+    if (std::abs(wind.wind_m_s) < kMostFittedWind_m_s) continue;
+    fit.warnings.push_back(fmt::format(
+        "the headings of '{}' differ as in a wind of {:.0f} m/s, in which nobody coasts down: its square is not "
+        "subtracted. Are both headings from the same vehicle, in the same units?",
+        wind.session, std::abs(wind.wind_m_s)));
+  }
+}
+
 void warn(const CoastdownProblem& problem, const CoastdownData& data, const RoadLoadFitOptions& options,
           RoadLoadFit& fit) {
   const std::size_t left_out = data.runs.size() - problem.runs.size();
@@ -257,6 +272,7 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
   if (const auto doubt = doubt_session_difference(data, find_run_deviations(fit), winds)) {
     fit.warnings.push_back(*doubt);
   }
+  doubt_fitted_winds(fit);
   doubt_drag_area(options, fit);
   if (!options.mass_kg.has_value()) {
     fit.warnings.push_back("no mass given: A, B and C are per unit of effective mass");

@@ -176,6 +176,29 @@ TEST_CASE("sessions that do not differ are doubted in one set of a hundred", "[w
   CHECK(count_doubted(100).same <= 4);
 }
 
+TEST_CASE("sessions that differ make the coefficients of each heading alone as uncertain", "[fast]") {
+  tests::CoastdownStudy study;
+  study.pairs = 3;
+  study.run_force_sd_N = 1.0;
+  tests::CoastdownStudy high = study;
+  high.load.A_N += 20.0;
+  const RoadLoadFit fit = fit_study(join_sessions(study, high));
+  REQUIRE(fit.headings.size() == 2);
+  // the mean of two sessions that scatter by 20/sqrt(2) N
+  for (const auto& heading : fit.headings) CHECK(heading.estimate.sd(0) > 0.8 * 10.0);
+}
+
+TEST_CASE("headings that differ as in a storm are doubted", "[fast]") {
+  tests::CoastdownStudy study;
+  CoastdownData data = tests::simulate_coastdowns(study, 1);
+  for (CoastdownRun& run : data.runs) {
+    if (run.heading < 0) continue;
+    for (double& time_s : run.time_s) time_s /= 4.0;
+  }
+  CHECK(has_session_warning(fit_study(data), "in which nobody coasts down"));
+  CHECK_FALSE(has_session_warning(fit_study(tests::simulate_coastdowns(study, 1)), "nobody coasts"));
+}
+
 TEST_CASE("a session in mph is named with its unit by every method, and none of its runs is odd", "[fast]") {
   tests::CoastdownStudy study;
   study.pairs = 4;
