@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -11,8 +10,7 @@
 #include <Eigen/QR>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "sim/core/error.h"
-#include "sim/core/text.h"
+#include "estimation/road_load/reference_choice.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -21,149 +19,64 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kFewestPairs = 3;           // UN GTR 15 Annex 4, 4.3.1.4.2
-constexpr double kPrecisionLimit = 0.03;  // likewise
-constexpr std::size_t kFewestSpeeds = 4;  // one more than coefficients
+constexpr double kPrecisionLimit = 0.03;  // UN GTR 15 Annex 4, 4.3.1.4.2
 
-InputError pairing_error(const std::string& what, const std::string& allowed) {
-  return InputError({what, "", 0, "heading", "", allowed, ""});
-}
-
-/// Reference speeds that at least three runs of each heading have, falling.
-std::vector<int> find_reference_speeds(const std::vector<ReferenceRun>& runs, const std::map<int, double>& speeds_m_s,
-                                       const PairRule& rule) {
-  std::map<int, std::pair<int, int>> counts;
+void require_both_headings(const std::vector<ReferenceRun>& runs) {
   int ways[2] = {0, 0};
   for (const ReferenceRun& run : runs) {
-    if (run.heading == 0) continue;
-    ++ways[run.heading > 0 ? 0 : 1];
-    for (const auto& [speed, value] : run.values) ++(run.heading > 0 ? counts[speed].first : counts[speed].second);
+    if (run.heading != 0) ++ways[run.heading > 0 ? 0 : 1];
   }
-  if (ways[0] == 0 || ways[1] == 0) {
-    throw pairing_error(ways[0] + ways[1] == 0 ? "the headings of the runs are not known"
-                                               : "all runs have the same heading: the procedure pairs opposite ones",
-                        "a column heading with + and -, and runs of both");
-  }
-  std::vector<int> speeds;
-  for (auto at = counts.rbegin(); at != counts.rend(); ++at) {
-    if (std::min(at->second.first, at->second.second) >= kFewestPairs) speeds.push_back(at->first);
-  }
-  if (speeds.size() >= kFewestSpeeds) {
-    for (int speed = speeds.back(); speed < speeds.front(); ++speed) {
-      if (speeds_m_s.count(speed) == 0 || std::find(speeds.begin(), speeds.end(), speed) != speeds.end()) continue;
-      throw pairing_error(
-          fmt::format("fewer than {} pairs have {} at {:.4g} km/h, and other runs have speeds on both sides",
-                      kFewestPairs, rule.quantity, 3.6 * speeds_m_s.at(speed)),
-          "three runs of each heading at every reference speed; or a range by --speed-from and --speed-to");
-    }
-    return speeds;
-  }
-  int most = 0;
-  for (const auto& [speed, count] : counts) most = std::max(most, std::min(count.first, count.second));
-  if (most < kFewestPairs) {
-    throw pairing_error(
-        fmt::format("fewer than {} pairs of opposite headings: {} (runs that repeat another are not used)",
-                    kFewestPairs, most),
-        "at least three runs of each heading at each reference speed");
-  }
-  throw pairing_error(fmt::format("{} at {} only", rule.quantity, format_count(speeds.size(), "reference speed")),
-                      fmt::format("at least {} reference speeds for f0, f1 and f2", kFewestSpeeds));
+  if (ways[0] > 0 && ways[1] > 0) return;
+  throw pairing_error(ways[0] + ways[1] == 0 ? "the headings of the runs are not known"
+                                             : "all runs have the same heading: the procedure pairs opposite ones",
+                      "a column heading with + and -, and runs of both");
 }
 
-/// Runs that cover the same of the speeds.
-struct SpeedPart {
-  std::vector<int> speeds;
-  std::vector<std::size_t> runs;
-};
-
-std::vector<SpeedPart> sort_parts(const std::vector<ReferenceRun>& runs, const std::vector<int>& speeds) {
-  std::vector<SpeedPart> parts;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    std::vector<int> covered;
-    for (const int speed : speeds) {
-      if (runs[i].values.count(speed) > 0) covered.push_back(speed);
-    }
-    if (covered.empty() || runs[i].heading == 0) continue;
-    const auto same =
-        std::find_if(parts.begin(), parts.end(), [&](const SpeedPart& part) { return part.speeds == covered; });
-    if (same == parts.end()) {
-      parts.push_back({covered, {i}});
-    } else {
-      same->runs.push_back(i);
-    }
-  }
-  std::sort(parts.begin(), parts.end(), [](const SpeedPart& a, const SpeedPart& b) { return a.speeds > b.speeds; });
-  return parts;
-}
-
-/// The n-th run of one heading and the n-th of the other, session by session.
-std::vector<ReferencePair> pair_up(const std::vector<ReferenceRun>& runs, const SpeedPart& part, int number,
-                                   std::vector<std::string>& warnings) {
-  std::vector<std::string> sessions;
-  for (const std::size_t run : part.runs) {
-    if (std::find(sessions.begin(), sessions.end(), runs[run].session) == sessions.end()) {
-      sessions.push_back(runs[run].session);
-    }
-  }
-  std::vector<ReferencePair> pairs;
-  std::vector<std::string> alone;
-  for (const std::string& session : sessions) {
-    std::vector<std::size_t> ways[2];
-    for (const std::size_t run : part.runs) {
-      if (runs[run].session == session) ways[runs[run].heading > 0 ? 0 : 1].push_back(run);
-    }
-    const std::size_t count = std::min(ways[0].size(), ways[1].size());
-    for (std::size_t i = 0; i < count; ++i) pairs.push_back({ways[0][i], ways[1][i], number, ""});
-    for (const auto& way : ways) {
-      for (std::size_t i = count; i < way.size(); ++i) alone.push_back(runs[way[i]].name);
-    }
-  }
-  if (!alone.empty()) {
-    warnings.push_back(
-        fmt::format("not used, since no run of the opposite heading in its session goes with it at the same reference "
-                    "speeds ({} to {} km/h): {}",
-                    part.speeds.back(), part.speeds.front(), fmt::join(alone, ", ")));
-  }
-  return pairs;
-}
-
-/// Everything about pairs that the rejection looks at.
+/// The pairs, and what they say of each speed.
 class PairTable {
  public:
-  PairTable(const std::vector<ReferenceRun>& runs, const std::vector<int>& speeds, const PairRule& rule,
-            std::vector<SpeedPart> parts, std::vector<ReferencePair>& pairs)
-      : runs_(runs), speeds_(speeds), rule_(rule), parts_(std::move(parts)), pairs_(pairs) {}
+  PairTable(const std::vector<ReferenceRun>& runs, const PairRule& rule, std::vector<ReferencePair>& pairs)
+      : runs_(runs), rule_(rule), pairs_(pairs) {}
 
   double value(const ReferencePair& pair, int speed) const {
     return rule_.join(runs_[pair.plus].values.at(speed), runs_[pair.minus].values.at(speed));
   }
-  bool has(const ReferencePair& pair, int speed) const {
-    const std::vector<int>& covered = parts_[static_cast<std::size_t>(pair.part)].speeds;
-    return pair.rejected.empty() && std::find(covered.begin(), covered.end(), speed) != covered.end();
-  }
-  std::vector<double> values(int speed, int part = -1) const {
-    std::vector<double> values;
+  double resistance(const ReferencePair& pair, int speed) const { return rule_.resistance(value(pair, speed)); }
+
+  /// Pairs that count at a speed; those of one part if it is given.
+  std::vector<const ReferencePair*> list(int speed, std::optional<int> part = std::nullopt) const {
+    std::vector<const ReferencePair*> having;
     for (const ReferencePair& pair : pairs_) {
-      if (has(pair, speed) && (part < 0 || pair.part == part)) values.push_back(value(pair, speed));
+      if (pair.rejected.empty() && pair.has(speed) && pair.part == part.value_or(pair.part)) having.push_back(&pair);
     }
+    return having;
+  }
+  std::vector<double> values(int speed) const {
+    std::vector<double> values;
+    for (const ReferencePair* pair : list(speed)) values.push_back(value(*pair, speed));
     return values;
   }
-  const std::vector<SpeedPart>& parts() const { return parts_; }
+  double mean_resistance(const std::vector<const ReferencePair*>& pairs, int speed) const {
+    double sum = 0.0;
+    for (const ReferencePair* pair : pairs) sum += resistance(*pair, speed);
+    return sum / static_cast<double>(pairs.size());
+  }
 
-  /// Rejects pairs until each speed has its precision, as far as that is allowed.
-  void reject() {
-    const auto most = static_cast<int>(pairs_.size()) / 3;
-    auto rejected = static_cast<int>(
+  /// Rejects pairs until each speed has its precision, as far as that is allowed; gives those that it rejects.
+  std::vector<const ReferencePair*> reject(const std::vector<int>& speeds) {
+    const std::size_t most = pairs_.size() / 3;
+    auto rejected = static_cast<std::size_t>(
         std::count_if(pairs_.begin(), pairs_.end(), [](const ReferencePair& pair) { return !pair.rejected.empty(); }));
-    while (rejected < most) {
+    std::vector<const ReferencePair*> now;
+    for (; rejected < most; ++rejected) {
       ReferencePair* farthest = nullptr;
       double distance = 0.0;
       int at = 0;
-      for (const int speed : speeds_) {
+      for (const int speed : speeds) {
         const ReferencePrecision precision = calc_precision(values(speed));
         if (precision.precision <= kPrecisionLimit) continue;
         for (ReferencePair& pair : pairs_) {
-          if (!has(pair, speed) || !is_spare(pair)) continue;
+          if (!pair.rejected.empty() || !pair.has(speed) || !is_spare(pair)) continue;
           const double deviation = std::abs(value(pair, speed) / precision.mean - 1.0);
           if (deviation <= distance) continue;
           distance = deviation;
@@ -171,115 +84,161 @@ class PairTable {
           at = speed;
         }
       }
-      if (farthest == nullptr) return;
+      if (farthest == nullptr) break;
       farthest->rejected = fmt::format("{:.1f} % from the mean at {} km/h", 100.0 * distance, at);
-      ++rejected;
+      now.push_back(farthest);
     }
+    return now;
   }
 
  private:
   bool is_spare(const ReferencePair& pair) const {
-    const std::vector<int>& covered = parts_[static_cast<std::size_t>(pair.part)].speeds;
-    return std::all_of(covered.begin(), covered.end(),
-                       [this](int speed) { return values(speed).size() > static_cast<std::size_t>(kFewestPairs); });
+    return std::all_of(pair.speeds.begin(), pair.speeds.end(),
+                       [this](int speed) { return list(speed).size() > kFewestPairs; });
   }
 
   const std::vector<ReferenceRun>& runs_;
-  const std::vector<int>& speeds_;
   const PairRule& rule_;
-  std::vector<SpeedPart> parts_;
   std::vector<ReferencePair>& pairs_;
 };
 
-void find_overlaps(const PairTable& pairs, const PairRule& rule, ReferenceResult& result) {
-  const auto mean_resistance = [&](int speed, std::size_t part) {
-    const std::vector<double> values = pairs.values(speed, static_cast<int>(part));
-    double sum = 0.0;
-    for (const double value : values) sum += rule.resistance(value);
-    return sum / static_cast<double>(values.size());
-  };
-  for (std::size_t lower = 1; lower < pairs.parts().size(); ++lower) {
-    for (const int speed : pairs.parts()[lower].speeds) {
-      for (std::size_t upper = 0; upper < lower; ++upper) {
-        const double difference = mean_resistance(speed, lower) - mean_resistance(speed, upper);
-        const std::vector<int>& covered = pairs.parts()[upper].speeds;
-        if (std::find(covered.begin(), covered.end(), speed) == covered.end() || !std::isfinite(difference)) continue;
+void find_overlaps(const PairTable& table, ReferenceResult& result) {
+  int parts = 0;
+  for (const ReferencePair& pair : result.pairs) parts = std::max(parts, pair.part + 1);
+  for (int lower = 1; lower < parts; ++lower) {
+    for (const int speed : result.speeds) {
+      for (int upper = 0; upper < lower; ++upper) {
+        const auto below = table.list(speed, lower), above = table.list(speed, upper);
+        if (below.empty() || above.empty()) continue;
         result.overlaps.push_back(speed);
-        result.overlap_differences.push_back(difference);
+        result.overlap_differences.push_back(table.mean_resistance(below, speed) - table.mean_resistance(above, speed));
       }
     }
   }
 }
 
 /// Least squares over the speeds, and what the scatter of the pairs makes of it.
-void fit_coefficients(const PairTable& pairs, const std::map<int, double>& speeds_m_s, const PairRule& rule,
-                      ReferenceResult& result) {
+void fit_coefficients(const PairTable& table, const std::map<int, double>& speeds_m_s, ReferenceResult& result) {
   const auto count = static_cast<Index>(result.speeds.size());
   MatrixXd X(count, 3);
-  VectorXd resistance = VectorXd::Zero(count);
   for (Index j = 0; j < count; ++j) {
     const double v = speeds_m_s.at(result.speeds[static_cast<std::size_t>(j)]);
     X.row(j) << 1.0, v, v * v;
   }
   const MatrixXd H = X.colPivHouseholderQr().solve(MatrixXd::Identity(count, count));
-  Eigen::Vector3d squares_over_freedom = Eigen::Vector3d::Zero();
-  for (std::size_t part = 0; part < pairs.parts().size(); ++part) {
-    std::vector<const ReferencePair*> valid;
-    for (const ReferencePair& pair : result.pairs) {
-      if (pair.rejected.empty() && pair.part == static_cast<int>(part)) valid.push_back(&pair);
+  struct Part {  // of a pair
+    Eigen::Vector3d deviation = Eigen::Vector3d::Zero();
+    Eigen::Vector3d share = Eigen::Vector3d::Zero();  // in the variance, as if all resistances scattered alike
+  };
+  std::map<const ReferencePair*, Part> of_pairs;
+  Eigen::Vector3d variance = Eigen::Vector3d::Zero();  // as if so
+  for (Index j = 0; j < count; ++j) {
+    const int speed = result.speeds[static_cast<std::size_t>(j)];
+    const std::vector<const ReferencePair*> pairs = table.list(speed);
+    const auto n = static_cast<double>(pairs.size());  // three at least
+    const double mean = table.mean_resistance(pairs, speed);
+    result.resistances.push_back(mean);
+    result.coefficients += H.col(j) * mean;
+    const Eigen::Vector3d of_speed = H.col(j).array().square() / n;
+    variance += of_speed;
+    for (const ReferencePair* pair : pairs) {
+      of_pairs[pair].deviation += H.col(j) * (table.resistance(*pair, speed) - mean) / std::sqrt(n * (n - 1.0));
+      of_pairs[pair].share += of_speed / std::sqrt(n * (n - 1.0));
     }
-    const std::vector<int>& speeds = pairs.parts()[part].speeds;
-    const auto n = static_cast<double>(valid.size());
-    MatrixXd values(static_cast<Index>(valid.size()), static_cast<Index>(speeds.size()));
-    MatrixXd G(3, values.cols());
-    for (Index k = 0; k < values.cols(); ++k) {
-      const int speed = speeds[static_cast<std::size_t>(k)];
-      const Index j = std::find(result.speeds.begin(), result.speeds.end(), speed) - result.speeds.begin();
-      for (Index i = 0; i < values.rows(); ++i) {
-        values(i, k) = rule.resistance(pairs.value(*valid[static_cast<std::size_t>(i)], speed));
-      }
-      const double share = n / static_cast<double>(pairs.values(speed).size());
-      G.col(k) = share * H.col(j);
-      if (n > 0.0) resistance(j) += share * values.col(k).mean();
-    }
-    if (valid.size() < 2) continue;  // as make_pair_table() has it, only where all others were rejected
-    const MatrixXd centered = values.rowwise() - values.colwise().mean();
-    const MatrixXd spread = G * (centered.transpose() * centered) * G.transpose() / ((n - 1.0) * n);
-    result.covariance += spread;
-    for (Index i = 0; i < 3; ++i) squares_over_freedom(i) += spread(i, i) * spread(i, i) / (n - 1.0);
   }
-  result.coefficients = H * resistance;
-  for (Index i = 0; i < 3; ++i) {
-    const double variance = result.covariance(i, i);
-    result.freedom(i) = squares_over_freedom(i) > 0.0 ? variance * variance / squares_over_freedom(i)
-                                                      : std::numeric_limits<double>::infinity();
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  for (const auto& [pair, part] : of_pairs) {
+    result.covariance += part.deviation * part.deviation.transpose();
+    squares += part.share.array().square().matrix();
   }
-  result.resistances.assign(resistance.data(), resistance.data() + count);
+  result.freedom = variance.array().square() / squares.array();
 }
 
-/// PairTable of all parts with two or more.
-PairTable make_pair_table(const std::vector<ReferenceRun>& runs, const PairRule& rule,
-                          const std::vector<std::string>& rejected_runs, ReferenceResult& result) {
-  std::vector<SpeedPart> parts;
-  for (SpeedPart& part : sort_parts(runs, result.speeds)) {
-    const std::vector<ReferencePair> pairs = pair_up(runs, part, static_cast<int>(parts.size()), result.warnings);
-    if (pairs.size() < 2) {
-      for (const ReferencePair& pair : pairs) {
-        result.warnings.push_back(fmt::format("the runs {} and {} are not used: no other pair covers the same speeds",
-                                              runs[pair.plus].name, runs[pair.minus].name));
-      }
+/// Pairs with a run whose wind is above the limits.
+void reject_windy(const std::vector<ReferenceRun>& runs, const std::vector<std::string>& windy,
+                  std::vector<ReferencePair>& pairs) {
+  for (ReferencePair& pair : pairs) {
+    for (const std::size_t run : {pair.plus, pair.minus}) {
+      const auto found = std::find(windy.begin(), windy.end(), runs[run].name);
+      if (found != windy.end()) pair.rejected = fmt::format("wind of run {}", runs[run].name);
+    }
+  }
+}
+
+/// Warns of runs without a partner.
+void report_alone(const std::vector<ReferenceRun>& runs, const std::vector<std::size_t>& alone,
+                  std::vector<std::string>& warnings) {
+  if (alone.empty()) return;
+  std::vector<std::string> texts;
+  for (const std::size_t run : alone) {
+    const std::map<int, double>& values = runs[run].values;
+    texts.push_back(fmt::format("{} ({} to {} km/h)", runs[run].name, values.begin()->first, values.rbegin()->first));
+  }
+  warnings.push_back(
+      fmt::format("not used, since no run of the opposite heading is left in its session that shares most of the "
+                  "reference speeds with it: {}",
+                  fmt::join(texts, ", ")));
+}
+
+/// Warns where a run has many of the used speeds for nothing, since its partner does not have them.
+void report_unshared(const std::vector<ReferenceRun>& runs, const ReferencePair& pair, const std::vector<int>& used,
+                     std::vector<std::string>& warnings) {
+  constexpr std::size_t kUsual = 2;  // Assumed: one at each end, where runs begin and end by chance
+  for (const auto& [run, partner] : {std::pair(pair.plus, pair.minus), std::pair(pair.minus, pair.plus)}) {
+    std::vector<int> unshared;
+    for (const int speed : used) {
+      if (runs[run].values.count(speed) > 0 && !pair.has(speed)) unshared.push_back(speed);
+    }
+    if (unshared.size() <= kUsual) continue;
+    warnings.push_back(fmt::format("run {} is not used at {} km/h, which run {}, its partner, does not have",
+                                   runs[run].name, fmt::join(unshared, ", "), runs[partner].name));
+  }
+}
+
+/// The pairs with those of their speeds that are used. Warns of what that leaves out.
+std::vector<ReferencePair> keep_used_speeds(const std::vector<ReferenceRun>& runs, std::vector<ReferencePair> pairs,
+                                            const std::vector<int>& used, std::vector<std::string>& warnings) {
+  const auto is_unused = [&used](int speed) { return std::find(used.begin(), used.end(), speed) == used.end(); };
+  std::vector<ReferencePair> kept;
+  for (ReferencePair& pair : pairs) {
+    pair.speeds.erase(std::remove_if(pair.speeds.begin(), pair.speeds.end(), is_unused), pair.speeds.end());
+    report_unshared(runs, pair, used, warnings);
+    if (!pair.speeds.empty()) {
+      kept.push_back(std::move(pair));
       continue;
     }
-    parts.push_back(std::move(part));
-    result.pairs.insert(result.pairs.end(), pairs.begin(), pairs.end());
+    warnings.push_back(fmt::format("the pair of runs {} and {} has none of the reference speeds that are used",
+                                   runs[pair.plus].name, runs[pair.minus].name));
   }
-  for (ReferencePair& pair : result.pairs) {
-    for (const std::size_t run : {pair.plus, pair.minus}) {
-      const auto found = std::find(rejected_runs.begin(), rejected_runs.end(), runs[run].name);
-      if (found != rejected_runs.end()) pair.rejected = fmt::format("wind of run {}", runs[run].name);
+  return kept;
+}
+
+/// Warns of rejected pairs. `imprecise` are those that reject() rejected, in its order: where they are all pairs of
+/// a session, it is the session that differs.
+void report_rejected(const std::vector<ReferenceRun>& runs, const std::vector<ReferencePair>& pairs,
+                     const std::vector<const ReferencePair*>& imprecise, std::vector<std::string>& warnings) {
+  const auto is_imprecise = [&imprecise](const ReferencePair& pair) {
+    return std::find(imprecise.begin(), imprecise.end(), &pair) != imprecise.end();
+  };
+  const auto count_of = [&](const std::string& session, bool all) {
+    return std::count_if(pairs.begin(), pairs.end(), [&](const ReferencePair& pair) {
+      return runs[pair.plus].session == session && (is_imprecise(pair) || (all && pair.rejected.empty()));
+    });
+  };
+  std::set<std::string> said;
+  for (const ReferencePair& pair : pairs) {
+    if (pair.rejected.empty()) continue;
+    std::string text = fmt::format("the pair of runs {} and {} is rejected: {}", runs[pair.plus].name,
+                                   runs[pair.minus].name, pair.rejected);
+    const std::string& session = runs[pair.plus].session;
+    const auto rejected = count_of(session, false);
+    if (is_imprecise(pair) && rejected > 1 && rejected == count_of(session, true) && said.insert(session).second) {
+      text += fmt::format("; all {} pairs of session '{}' are rejected: were its conditions and its calibration those "
+                          "of the other sessions?",
+                          rejected, session);
     }
+    warnings.push_back(std::move(text));
   }
-  return PairTable(runs, result.speeds, rule, std::move(parts), result.pairs);
 }
 
 }  // namespace
@@ -319,28 +278,22 @@ ReferencePrecision calc_precision(const std::vector<double>& values) {
 
 ReferenceResult evaluate_reference_runs(const std::vector<ReferenceRun>& runs, const std::map<int, double>& speeds_m_s,
                                         const PairRule& rule, const std::vector<std::string>& rejected_runs) {
+  require_both_headings(runs);
+  PairedRuns paired = pair_runs(runs);
+  reject_windy(runs, rejected_runs, paired.pairs);
+  const ReferenceChoice choice(runs, paired, rejected_runs, rule.quantity);
+  choice.require_enough(speeds_m_s);
   ReferenceResult result;
-  result.speeds = find_reference_speeds(runs, speeds_m_s, rule);
-  PairTable pairs = make_pair_table(runs, rule, rejected_runs, result);
-  for (const int speed : result.speeds) {
-    const std::size_t count = pairs.values(speed).size();
-    if (count >= static_cast<std::size_t>(kFewestPairs)) continue;
-    const std::string of_wind = rejected_runs.empty() ? std::string()
-                                                      : fmt::format("; rejected for their wind: {}. Is it in m/s?",
-                                                                    fmt::join(rejected_runs, ", "));
-    throw pairing_error(fmt::format("fewer than {} pairs at {:.4g} km/h: {}{}", kFewestPairs,
-                                    3.6 * speeds_m_s.at(speed), count, of_wind),
-                        "at least three pairs within the limits of the procedure");
-  }
-  pairs.reject();
-  for (const ReferencePair& pair : result.pairs) {
-    if (pair.rejected.empty()) continue;
-    result.warnings.push_back(fmt::format("the pair of runs {} and {} is rejected: {}", runs[pair.plus].name,
-                                          runs[pair.minus].name, pair.rejected));
-  }
-  for (const int speed : result.speeds) result.precisions.push_back(calc_precision(pairs.values(speed)));
-  find_overlaps(pairs, rule, result);
-  fit_coefficients(pairs, speeds_m_s, rule, result);
+  result.speeds = choice.speeds();
+  result.warnings = choice.list_warnings();
+  report_alone(runs, paired.alone, result.warnings);
+  result.pairs = keep_used_speeds(runs, paired.pairs, result.speeds, result.warnings);
+  PairTable table(runs, rule, result.pairs);
+  const std::vector<const ReferencePair*> imprecise = table.reject(result.speeds);
+  report_rejected(runs, result.pairs, imprecise, result.warnings);
+  for (const int speed : result.speeds) result.precisions.push_back(calc_precision(table.values(speed)));
+  find_overlaps(table, result);
+  fit_coefficients(table, speeds_m_s, result);
   return result;
 }
 

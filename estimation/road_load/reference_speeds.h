@@ -7,23 +7,9 @@
 
 #include <Eigen/Core>
 
+#include "estimation/road_load/reference_pairs.h"
+
 namespace rollrig::estimation {
-
-/// What one run gave at reference speeds; a split run does not have all of them.
-struct ReferenceRun {
-  std::string name;
-  std::string session;
-  int heading = 0;
-  std::map<int, double> values;  // by the number of the reference speed: a time, or a torque
-};
-
-/// Two runs of opposite headings, one after the other in their session.
-struct ReferencePair {
-  std::size_t plus = 0;  // runs
-  std::size_t minus = 0;
-  int part = 0;          // of split runs: 0 has the highest speeds
-  std::string rejected;  // why; empty where it counts
-};
 
 /// How the pairs agree at one reference speed.
 struct ReferencePrecision {
@@ -45,7 +31,7 @@ struct PairRule {
 
 struct ReferenceResult {
   std::vector<int> speeds;  // numbers of the reference speeds, falling
-  std::vector<ReferencePair> pairs;
+  std::vector<ReferencePair> pairs;            // with the speeds that are used
   std::vector<ReferencePrecision> precisions;  // by speed
   std::vector<double> resistances;             // by speed
   std::vector<int> overlaps;                   // numbers of the speeds that parts of split runs share
@@ -73,12 +59,14 @@ ReferencePrecision calc_precision(const std::vector<double>& values);
 
 /// Pairs of the runs, statistical precision, resistance at each speed, and f0, f1, f2 by least squares over the speeds.
 ///
-/// Runs that cover the same speeds belong together: of split runs, each part is paired for itself, and the force at a
-/// speed is that of all pairs that have it. Where the precision is not met, the pair farthest from the mean is
-/// rejected, as long as three pairs stay at each speed and at most a third of all is rejected.
-/// Equation  F_j mean over pairs; f = (X'X)^-1 X' F,  X = [1 v v^2];  covariance sum_s G_s S_s G_s'/n_s
-/// Symbols   S_s sample covariance of the pairs of part s over its speeds; G_s what its mean adds to f
-/// Validity  pairs independent of each other; freedom by Welch and Satterthwaite
+/// A pair counts at the speeds that both of its runs have. Speeds are those of ReferenceChoice. Where the precision is
+/// not met, the pair farthest from the mean is rejected, as long as three pairs stay at each speed and at most a third
+/// of all is rejected.
+/// Equation  F_j mean over the n_j pairs with speed j;  f = sum_j H_j F_j,  H = (X'X)^-1 X',  X = [1 v v^2]
+///           covariance sum_i e_i e_i',  e_i = sum_j H_j (F_ij - F_j)/sqrt(n_j (n_j - 1)) over the speeds of pair i
+/// Symbols   F_ij resistance of pair i at speed j. Of pairs with all speeds, this is the covariance of their mean
+/// Validity  pairs independent of each other; freedom by Welch and Satterthwaite, with the shares of the pairs in the
+///           variance as if all resistances scattered alike
 /// Errors    InputError: one heading alone, fewer than three pairs or fewer than four speeds
 /// Source    UN GTR 15 Annex 4, 4.3.1.3 and 4.3.1.4; Welch, Biometrika 34 (1947) 28
 /// Checked   tests/estimation/reference_speeds_test.cpp, tests/estimation/wltp_coverage_test.cpp

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "sim/core/error.h"
 
@@ -29,6 +30,19 @@ std::vector<ReferenceRun> make_reference_runs(const std::vector<double>& shares)
     }
   }
   return runs;
+}
+
+/// Takes speeds out of the runs with these names.
+void take_out(const std::vector<int>& names, const std::vector<int>& speeds, std::vector<ReferenceRun>& runs) {
+  for (const int name : names) {
+    for (const int speed : speeds) runs[static_cast<std::size_t>(name - 1)].values.erase(speed);
+  }
+}
+
+std::size_t count_warnings(const ReferenceResult& result, const std::string& text) {
+  std::size_t count = 0;
+  for (const std::string& warning : result.warnings) count += warning.find(text) != std::string::npos ? 1 : 0;
+  return count;
 }
 
 }  // namespace
@@ -124,5 +138,138 @@ TEST_CASE("reference speeds: one heading, too few pairs, too few speeds", "[fast
   CHECK_THROWS_WITH(evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {}), Contains("3 reference speeds only"));
   // the wind of one run of three pairs leaves two
   CHECK_THROWS_WITH(evaluate_reference_runs(make_reference_runs({0.0, 0.0, 0.0}), kSpeeds_m_s, kTorques, {"3"}),
-                    Contains("fewer than 3 pairs at 130 km/h: 2") && Contains("wind: 3"));
+                    Contains("fewer than 3 pairs of opposite headings: 2") && Contains("wind: 3"));
+}
+
+TEST_CASE("reference speeds: runs whose ends scatter are all used", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.01, -0.01, 0.0, 0.004, -0.004});
+  take_out({2, 3, 6}, {130}, runs);  // odd runs have the heading +
+  const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  CHECK(result.warnings.empty());
+  CHECK(result.speeds.size() == 5);
+  CHECK(result.list_used_runs().size() == 10);
+  REQUIRE(result.pairs.size() == 5);
+  for (const ReferencePair& pair : result.pairs) CHECK(pair.part == 0);
+  CHECK(result.overlaps.empty());
+  CHECK(result.precisions.front().pairs == 3);  // 130 km/h: runs 1 and 4, 5 and 8, 7 and 10
+  for (std::size_t i = 1; i < 5; ++i) CHECK(result.precisions[i].pairs == 5);
+  const double v = 130 / 3.6;
+  CHECK(result.resistances.front() == Approx((1.0 + 0.002 / 3.0) * (100.0 + 2.0 * v + 0.4 * v * v)));
+  // three of five pairs at one speed tell less than five, and more than three at all
+  CHECK(result.freedom(2) > 2.0);
+  CHECK(result.freedom(2) < 4.0);
+}
+
+TEST_CASE("reference speeds: a run is paired with one of the same speeds, the first of those", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.0, 0.0, 0.0, 0.0});
+  take_out({3, 4}, {20}, runs);
+  std::swap(runs[1], runs[3]);  // the run without 20 km/h comes first now
+  const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  const std::vector<std::pair<std::size_t, std::size_t>> wanted{{0, 3}, {2, 1}, {4, 5}, {6, 7}};
+  REQUIRE(result.pairs.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(result.pairs[i].plus == wanted[i].first);
+    CHECK(result.pairs[i].minus == wanted[i].second);
+  }
+  CHECK(result.precisions.back().pairs == 3);
+}
+
+TEST_CASE("reference speeds: a pair that begins late is used at the speeds that it has", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.01, -0.01, 0.0, 0.02});
+  take_out({7, 8}, {110, 130}, runs);
+  const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  CHECK(result.warnings.empty());
+  CHECK(result.overlaps.empty());
+  CHECK(result.precisions[1].pairs == 3);
+  CHECK(result.precisions[2].pairs == 4);
+  const double v = 80 / 3.6;
+  CHECK(result.resistances[2] == Approx(1.005 * (100.0 + 2.0 * v + 0.4 * v * v)));
+}
+
+TEST_CASE("reference speeds: an end that fewer than three pairs have is left out, with a word", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.0, 0.0, 0.0, 0.0, 0.0});
+  take_out({1, 3, 4, 5}, {130}, runs);
+  ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  CHECK(result.speeds == std::vector<int>{110, 80, 50, 20});
+  CHECK(result.list_used_runs().size() == 10);
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings.front(),
+             Contains("130 km/h (2 pairs, of 2 runs with + and 4 with -)") && Contains("--speed-to 120 leaves"));
+  CHECK(result.coefficients(0) == Approx(100.0));
+
+  runs = make_reference_runs({0.0, 0.0, 0.0, 0.0, 0.0});
+  take_out({2, 4, 6, 8}, {20}, runs);
+  result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings.front(), Contains("20 km/h (1 pair, of") && Contains("--speed-from 35"));
+
+  // two ends, and speeds of the same pairs in one
+  runs = make_reference_runs({0.0, 0.0, 0.0});
+  for (int km_h = 140; km_h < 180; km_h += 10) runs[4].values[km_h] = runs[5].values[km_h] = 1000.0;
+  runs[4].values[10] = 50.0;
+  result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  CHECK(count_warnings(result, "140 to 170 km/h (1 pair, of 1 run with + and 1 with -). More") == 1);
+  CHECK(count_warnings(result, "10 km/h (0 pairs, of 1 run with + and 0 with -)") == 1);
+  CHECK(count_warnings(result, "--speed-from 15 ") == 1);
+
+  // the wind takes the third pair at 130 km/h away
+  runs = make_reference_runs({0.0, 0.0, 0.0, 0.0});
+  take_out({1}, {130}, runs);
+  result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {"3"});
+  CHECK(count_warnings(result, "130 km/h (2 pairs and 1 rejected, of 3 runs with + and 4 with -)") == 1);
+}
+
+TEST_CASE("reference speeds: a speed in between that fewer than three pairs have is an error", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.0, 0.0, 0.0, 0.0});
+  take_out({1, 3}, {80}, runs);
+  CHECK_THROWS_WITH(evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {}),
+                    Contains("fewer than 3 pairs have torques at 80 km/h, and there are enough above and below: 2 "
+                             "pairs, of 2 runs with + and 4 with -"));
+}
+
+TEST_CASE("reference speeds: parts of split runs whose ends scatter stay parts", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs(std::vector<double>(8, 0.0));
+  take_out({1, 2, 3, 4, 5, 6, 7, 8}, {20, 50}, runs);
+  take_out({9, 10, 11, 12, 13, 14, 15, 16}, {110, 130}, runs);
+  take_out({3}, {130}, runs);
+  take_out({11}, {80}, runs);
+  for (std::size_t i = 0; i < 8; i += 2) std::swap(runs[i], runs[i + 8]);  // the order of the parts is nothing
+  const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  CHECK(result.warnings.empty());
+  REQUIRE(result.pairs.size() == 8);
+  for (std::size_t i = 0; i < 8; ++i) CHECK(result.pairs[i].part == (i < 4 ? 0 : 1));
+  CHECK(result.list_used_runs().size() == 16);
+  CHECK(result.overlaps == std::vector<int>{80});
+  CHECK(result.precisions[0].pairs == 3);
+  CHECK(result.precisions[2].pairs == 7);
+}
+
+TEST_CASE("reference speeds: runs without a partner, and speeds that a partner lacks, are said", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.0, 0.0, 0.0, 0.0});
+  runs.pop_back();
+  ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings.front(), Contains("no run of the opposite heading") && Contains("7 (20 to 130 km/h)"));
+
+  runs = make_reference_runs({0.0, 0.0, 0.0, 0.0});
+  take_out({8}, {80, 110, 130}, runs);
+  result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings.front(),
+             Contains("run 7 is not used at 130, 110, 80 km/h, which run 8, its partner, does not have"));
+  CHECK(result.precisions.back().pairs == 4);
+}
+
+TEST_CASE("reference speeds: where all pairs of one session are rejected, the session is named", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.001, -0.002, 0.002, 0.0, -0.001, 0.001, 0.1, 0.102, 0.098});
+  for (std::size_t i = 6; i < runs.size(); ++i) runs[i].session = i < 12 ? "noon" : "evening";
+  ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  CHECK(count_warnings(result, "is rejected") == 3);
+  CHECK(count_warnings(result, "all 3 pairs of session 'evening' are rejected") == 1);
+  // pairs of several sessions, and the session of all pairs, are not named
+  runs[12].session = runs[13].session = "noon";
+  runs[0].session = runs[1].session = "evening";
+  result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  CHECK(count_warnings(result, "is rejected") == 3);
+  CHECK(count_warnings(result, "of session") == 0);
 }

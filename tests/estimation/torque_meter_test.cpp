@@ -26,6 +26,7 @@ struct TorqueStudy {
   double torque_error_Nm = 0.0;
   double wheel_speed_error_Hz = 0.0;
   double speed_error_km_h = 0.0;
+  int without_top = 0;  // so many runs, from the first on, do not have the highest reference speed
 };
 
 constexpr double kRadius_m = 0.32;
@@ -43,7 +44,7 @@ std::string write_torques(const TorqueStudy& study, bool with_times = true) {
     const int heading = run % 2 == 0 ? 1 : -1;
     const double scale = 1.0 + study.pair_sd * random.normal();
     double time_s = 0.0;
-    for (int reference = 120; reference >= 20; reference -= 20) {
+    for (int reference = run < study.without_top ? 100 : 120; reference >= 20; reference -= 20) {
       for (int i = 0; i < (with_times ? 60 : 1); ++i, time_s += 0.1) {
         const double t = with_times ? 0.1 * (i - 29.5) : 0.0;
         const double v = reference / 3.6 + study.drift_m_s2 * t;
@@ -148,6 +149,24 @@ TEST_CASE("torque meter: precision, and what is wrong with a test", "[fast]") {
   study = {};
   study.speed_scale = 1.0 / 1.609344;
   CHECK_THROWS_WITH(evaluate_torques(write_torques(study)), Contains("speed_km_h looks as if it were in mph"));
+}
+
+TEST_CASE("torque meter: runs that lack a reference speed are used at the others", "[fast]") {
+  TorqueStudy study;
+  study.pairs = 4;
+  study.without_top = 1;
+  const RoadLoadProcedure one = evaluate_torques(write_torques(study));
+  CHECK(one.reference.list_used_runs().size() == 8);
+  CHECK(one.reference.precisions.front().pairs == 3);
+  CHECK(one.reference.precisions.back().pairs == 4);
+  study.without_top = 4;
+  const RoadLoadProcedure four = evaluate_torques(write_torques(study));
+  CHECK(four.reference.list_used_runs().size() == 8);
+  CHECK(four.reference.speeds.front() == 100);
+  CHECK(std::count_if(four.warnings.begin(), four.warnings.end(), [](const std::string& warning) {
+          return warning.find("120 km/h (2 pairs, of 2 runs with + and 2 with -)") != std::string::npos &&
+                 warning.find("--speed-to 110 leaves that out") != std::string::npos;
+        }) == 1);
 }
 
 TEST_CASE("torque meter: turns of the wheels in another unit are refused by the radius that they give", "[fast]") {

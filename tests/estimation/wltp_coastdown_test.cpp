@@ -126,6 +126,50 @@ TEST_CASE("WLTP coastdown: split runs give the same road load as whole runs", "[
   CHECK(has_warning(apart, "no reference speed in common"));
 }
 
+TEST_CASE("WLTP coastdown: runs that begin near the end of a bin are all used", "[fast]") {
+  ProcedureStudy study = make_quiet_study();
+  study.pairs = 5;
+  study.from_km_h = 135.0;  // the bin of 130 km/h begins there
+  study.from_scatter_km_h = 1.0;
+  for (const double split_km_h : {0.0, 60.0}) {
+    study.split_km_h = split_km_h;  // the second part begins at 80 +- 1 km/h, amid the bin of 80 km/h
+    int without_130 = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      INFO("split at " << split_km_h << ", seed " << seed);
+      const tests::SimulatedProcedure simulated = simulate_procedure(study, seed);
+      const RoadLoadProcedure procedure = evaluate_wltp_coastdowns(simulated.file, make_wltp_options(study.mass_kg));
+      CHECK(procedure.reference.list_used_runs().size() == simulated.file.data.runs.size());
+      CHECK(procedure.reference.pairs.back().part == (split_km_h > 0.0 ? 1 : 0));
+      CHECK_FALSE(has_warning(procedure, "opposite heading"));
+      const bool has_130 = procedure.reference.speeds.front() == 130;
+      without_130 += has_130 ? 0 : 1;
+      CHECK(has_warning(procedure, "--speed-to 125 leaves that out") == !has_130);
+      for (const double km_h : {20.0, 80.0, 120.0}) {
+        const double v = km_h / 3.6;
+        CHECK(procedure.force_N(v) == Approx(130.0 + 2.16 * v + 0.40176 * v * v).epsilon(0.003));
+      }
+    }
+    CHECK(without_130 > 0);
+    CHECK(without_130 < 20);
+  }
+}
+
+TEST_CASE("WLTP coastdown: a pair that begins at 100 km/h counts below it", "[fast]") {
+  ProcedureStudy study = make_quiet_study();
+  tests::SimulatedProcedure simulated = simulate_procedure(study, 1);
+  study.from_km_h = 100.0;
+  study.pairs = 1;
+  for (CoastdownRun run : simulate_procedure(study, 2).file.data.runs) {
+    run.id = "late " + run.id;
+    simulated.file.data.runs.push_back(run);
+  }
+  const RoadLoadProcedure procedure = evaluate_wltp_coastdowns(simulated.file, make_wltp_options(study.mass_kg));
+  CHECK(procedure.warnings.empty());
+  for (std::size_t i = 0; i < procedure.reference.speeds.size(); ++i) {
+    CHECK(procedure.reference.precisions[i].pairs == (procedure.reference.speeds[i] > 90 ? 3 : 4));
+  }
+}
+
 TEST_CASE("WLTP coastdown: times through bins and traces agree", "[fast]") {
   ProcedureStudy study = make_quiet_study();
   study.to_km_h = 14.0;

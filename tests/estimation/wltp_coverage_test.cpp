@@ -90,6 +90,21 @@ TEST_CASE("procedures: 95 % intervals of the WLTP coastdown contain the road loa
   require_procedure_coverage(count_procedure_coverage(study, options, kProcedureSeeds));
 }
 
+TEST_CASE("procedures: 95 % intervals of the WLTP coastdown contain the road load, runs that begin at 135 +- 1 km/h",
+          "[slow]") {
+  RoadLoadProcedureOptions options;
+  options.sensor_accuracy = false;
+  ProcedureStudy study = make_windy_study();
+  study.crosswind_m_s = 0.0;
+  study.from_km_h = 135.0;
+  study.from_scatter_km_h = 1.0;
+  for (const double split_km_h : {0.0, 60.0}) {
+    study.split_km_h = split_km_h;
+    std::printf("WLTP, six pairs from 135 +- 1 km/h%s:\n", split_km_h > 0.0 ? ", split runs" : "");
+    require_procedure_coverage(count_procedure_coverage(study, options, kProcedureSeeds));
+  }
+}
+
 TEST_CASE("procedures: 95 % intervals of the WLTP coastdown with sensors that are off", "[slow]") {
   ProcedureStudy study = make_windy_study();
   study.crosswind_m_s = 0.0;

@@ -83,7 +83,9 @@ SimulatedProcedure simulate_procedure(const ProcedureStudy& study, std::uint64_t
   auto& runs = simulated.file.data.runs;
   for (const Stretch& part : parts) {
     for (int i = 0; i < 2 * study.pairs; ++i) {
-      runs.push_back(simulate_one(study, i % 2 == 0 ? 1 : -1, part.from_km_h, part.to_km_h, off, random));
+      const double later_km_h = study.from_scatter_km_h > 0.0 ? within(study.from_scatter_km_h) : 0.0;
+      runs.push_back(
+          simulate_one(study, i % 2 == 0 ? 1 : -1, part.from_km_h + later_km_h, part.to_km_h, off, random));
       runs.back().id = std::to_string(runs.size());
       runs.back().session = "day";
     }

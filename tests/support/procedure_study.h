@@ -18,6 +18,7 @@ struct ProcedureStudy {
   double rotating_mass_kg = 55.5;
   int pairs = 6;
   double from_km_h = 140.0;
+  double from_scatter_km_h = 0.0;  // by which a run may begin higher or lower
   double to_km_h = 10.0;
   double split_overlap_km_h = 20.0;
   double split_km_h = 0.0;  // runs end there, and others begin above; 0: whole runs
