@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -50,20 +51,28 @@ void remove_rows(double from_s, double to_s, Coast& coast) {
   coast = std::move(kept);
 }
 
+/// Whether the set names one file in both runs, be it in two ways ("a.csv", "./a.csv").
+bool is_same_file(const CoastRun& a, const CoastRun& b) {
+  const auto normal = [](const CoastRun& run) { return std::filesystem::path(run.file).lexically_normal(); };
+  return a.id == b.id || (!a.file.empty() && normal(a) == normal(b));
+}
+
 RunDoubt describe_repeat(const CoastSet& set, std::size_t first, std::size_t second, const RecordedSeries& rows,
                          const SeriesRepeat& repeat, bool whole) {
   const CoastRun& a = set.runs[first];
   const CoastRun& b = set.runs[second];
   RunDoubt doubt{
       DoubtKind::kRepeat, {a.id, b.id}, whole ? "the same recording" : "the same recording in part", 0.0, ""};
-  doubt.text = whole ? fmt::format("{} and {} are the same recording: it is counted once", a.id, b.id)
-                     : fmt::format(
-                           "{} and {} are the same recording from {:.1f} to {:.1f} km/h: this part is counted "
-                           "once",
-                           a.id, b.id, 3.6 * rows.speed_m_s[repeat.begin], 3.6 * rows.speed_m_s[repeat.end - 1]);
+  const bool same_file = is_same_file(a, b);
+  doubt.text = same_file ? fmt::format("the file {} is given twice", a.id)
+                         : fmt::format("{} and {} are the same recording", a.id, b.id);
+  doubt.text += whole ? ": it is counted once"
+                      : fmt::format(" from {:.1f} to {:.1f} km/h: this part is counted once",
+                                    3.6 * rows.speed_m_s[repeat.begin], 3.6 * rows.speed_m_s[repeat.end - 1]);
   const std::string differences = list_differences(a, b);
   if (!differences.empty()) {
-    doubt.text += fmt::format(", as {}. The two differ in {}: in one of them that is wrong", a.id, differences);
+    doubt.text += fmt::format(", as {}. The two differ in {}: in one of them that is wrong",
+                              same_file ? "it is given first" : a.id, differences);
   }
   return doubt;
 }

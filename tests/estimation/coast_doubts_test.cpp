@@ -10,6 +10,8 @@
 using namespace rollrig;
 using namespace rollrig::estimation;
 using Catch::Contains;
+using Catch::Equals;
+using Catch::StartsWith;
 using tests::TemporaryFolder;
 using tests::write_file;
 
@@ -53,6 +55,20 @@ TEST_CASE("one recording under two labels is doubted aloud", "[fast]") {
   set.runs.back().id = "copy.csv";
   set.runs.back().pressure_Pa = 350e3;
   CHECK_THAT(fit_drum_coastdown(set).warnings.front(), Contains("The two differ in pressure"));
+}
+
+TEST_CASE("a file that is given twice is named as such, and not as two recordings", "[fast]") {
+  CoastSet set = make_set();
+  for (estimation::CoastRun& run : set.runs) run.file = "folder/" + run.id;
+  set.runs.push_back(set.runs[12]);
+  CHECK_THAT(fit_drum_coastdown(set).warnings.front(), Equals("the file 12.csv is given twice: it is counted once"));
+  set.runs.back().id = "./12.csv";
+  set.runs.back().file = "folder/./12.csv";
+  CHECK_THAT(fit_drum_coastdown(set).warnings.front(), StartsWith("the file 12.csv is given twice:"));
+  set.runs.back().direction = "right";
+  set.runs[12].direction = "left";
+  CHECK_THAT(fit_drum_coastdown(set).warnings.front(),
+             Contains("it is counted once, as it is given first. The two differ in direction"));
 }
 
 TEST_CASE("a lifted run that is said to be loaded is named, and the others say what they said", "[fast]") {
