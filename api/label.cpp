@@ -219,10 +219,9 @@ TireLabel make_label(const LabelInput& input) {
   TireLabel label;
   const double rrc = find_label_rrc(input, tire, service, label.warnings);
   fill_label(service, rrc, find_label_rrc_sd(input, service.tire_class), label);
-  if (!tire.has_value() && service.tire_class == models::TireClass::kC1 && service.is_heavy()) {
-    label.warnings.push_back(
-        fmt::format("load index {} is above that of passenger car tires: is the class C3?", service.load_index));
-  }
+  const std::optional<std::string> doubt = models::doubt_class_by_index(service);
+  const bool is_new = std::find(label.warnings.begin(), label.warnings.end(), doubt) == label.warnings.end();
+  if (doubt.has_value() && is_new) label.warnings.push_back(*doubt);
   label.text = format_label(label, input.rrc_N_per_kN.has_value() ? "given" : "simulated test of ISO 28580");
   label.json = to_text(make_label_json(label));
   return label;

@@ -125,6 +125,19 @@ std::optional<ClassMistake> find_class_mistake(const ServiceDescription& service
                       "a speed symbol up to M"};
 }
 
+std::optional<std::string> doubt_class_by_index(const ServiceDescription& service) {
+  if (service.load_index == 0) return std::nullopt;
+  if (service.tire_class == TireClass::kC1 && service.is_heavy()) {
+    return fmt::format("class C1: a tire with load index {} is of class C3, unless it is of a passenger car",
+                       service.load_index);
+  }
+  if (service.tire_class != TireClass::kC3 || service.is_heavy() || !service.speed_symbol.empty()) return std::nullopt;
+  return fmt::format(
+      "class C3: a tire with load index {} is of class C1 or C2, unless its speed symbol is M or a lower one. Class C3 "
+      "begins at load index {}: give the speed symbol",
+      service.load_index, kHighestLightIndex + 1);
+}
+
 ServiceDescription read_service_description(const ConfigTable& table) {
   TableReader reader(table, "[service_description]");
   ServiceDescription service;

@@ -55,6 +55,12 @@ struct ClassMistake {
 /// The first contradiction between class and numbers; nothing where there is none.
 std::optional<ClassMistake> find_class_mistake(const ServiceDescription& service);
 
+/// A question about a class that the load index hardly goes with, though no number forbids it: C1 above index 121, or
+/// C3 up to index 121 where the speed symbol is not known. Nothing where the index is not known.
+/// Source    UN Regulation No. 117, paragraph 2.4: C3 up to index 121 has a speed symbol up to M
+/// Checked   tests/models/tire_class_test.cpp
+std::optional<std::string> doubt_class_by_index(const ServiceDescription& service);
+
 /// Reads the table. Throws InputError: an unknown class or symbol, an index without a load, and numbers that no tire of
 /// the class has: C2 above index 121 or below speed symbol N, C3 up to index 121 from symbol N, C3 without a symbol,
 /// C2 or C3 that is reinforced.

@@ -309,11 +309,8 @@ std::vector<std::string> TireFile::list_class_doubts() const {
       doubts.push_back(
           fmt::format("class C1: the designation {} is one of commercial vehicles, class C2 or C3", designation));
     }
-    if (service->is_heavy()) {
-      doubts.push_back(fmt::format(
-          "class C1: a tire with load index {} is of class C3, unless it is of a passenger car", service->load_index));
-    }
   }
+  if (const auto doubt = doubt_class_by_index(*service)) doubts.push_back(*doubt);
   // Assumed: 400 kPa. Truck tires carry their load at 500 kPa and more; their pressures in psi are 80 to 130
   constexpr double kLeastOfTruck_Pa = 400e3;
   const double pressure_Pa = service->maximum_load_pressure_Pa.value_or(kLeastOfTruck_Pa);

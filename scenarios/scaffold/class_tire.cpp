@@ -219,6 +219,7 @@ void set_service(const NewTireOptions& options, const TireSize& size, const std:
   if (service.tire_class == models::TireClass::kC1) service.maximum_load_pressure_Pa.reset();
   made.service = service;
   made.tire.service.reset();  // that of the reference tire
+  if (const auto doubt = models::doubt_class_by_index(service)) made.warnings.push_back(*doubt);
   if (symbol.empty() && service.tire_class == models::TireClass::kC3) return;
   if (const auto mistake = models::find_class_mistake(service)) {
     throw InputError({mistake->what, "command line", 0, "--class", made.tire_class, mistake->allowed, ""});

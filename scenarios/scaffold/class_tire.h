@@ -18,7 +18,7 @@ struct ClassTire {
   std::string base;                    // name of the asset that gives the values of the class
   models::ServiceDescription service;  // in the tire too, where the file can say it
   double load_capacity_N = 0.0;
-  std::vector<std::string> warnings = {};  // of the tire property file
+  std::vector<std::string> warnings = {};  // of the tire property file and of the class
 };
 
 /// Values of the reference tires of the assets, in proportion to size and load where that is usual; bounded.loss_N is

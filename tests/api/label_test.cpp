@@ -3,6 +3,7 @@
 #include <rollrig/label.h>
 #include <rollrig/vecto.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <optional>
 #include <string>
@@ -94,6 +95,29 @@ TEST_CASE("the rolling resistance that the terms of a label cannot be found for 
   LabelInput of_tire;
   of_tire.tire = "a50";  // without [service_description]
   CHECK(find_refused_label(of_tire) == "--class");
+}
+
+TEST_CASE("class C3 with a load index below 122 is doubted where no speed symbol tells", "[fast]") {
+  LabelInput input = make_label_input(5.0, "C3");
+  CHECK(make_label(input).warnings.empty());
+  input.load_index = "91";
+  const TireLabel label = make_label(input);
+  REQUIRE(label.warnings.size() == 1);
+  CHECK(label.warnings[0].find("unless its speed symbol is M or a lower one") != std::string::npos);
+  input.load_index = "118/116";
+  input.speed_symbol = "M";
+  CHECK(make_label(input).warnings.empty());
+  input.speed_symbol = "R";
+  CHECK(find_refused_label(input) == "--class");
+  input = make_label_input(8.4, "C1");
+  input.load_index = "125";
+  CHECK(make_label(input).warnings.size() == 1);
+  input.tire = "a50";  // without [service_description]: said once, also of the simulated test
+  input.rrc_N_per_kN.reset();
+  const std::vector<std::string> warnings = make_label(input).warnings;
+  CHECK(std::count_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
+          return warning.find("load index 125 is of class C3") != std::string::npos;
+        }) == 1);
 }
 
 TEST_CASE("a load index or speed symbol that is not the one of the tire's file is refused", "[fast]") {

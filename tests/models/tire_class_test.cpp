@@ -116,6 +116,20 @@ TEST_CASE("a class that contradicts its numbers is refused, with the number", "[
   CHECK(ends_with(find_refused_key("class = \"C2\"\nload_index = 104\nreinforced = true\n"), "reinforced"));
 }
 
+TEST_CASE("a class that the load index hardly goes with is doubted, as far as the symbol leaves it open", "[fast]") {
+  const auto light = models::doubt_class_by_index(make_service(TireClass::kC3, 91, ""));
+  REQUIRE(light.has_value());
+  CHECK(light->find("of class C1 or C2, unless its speed symbol is M or a lower one") != std::string::npos);
+  CHECK(light->find("begins at load index 122") != std::string::npos);
+  CHECK(models::doubt_class_by_index(make_service(TireClass::kC3, 121, "")).has_value());
+  CHECK(!models::doubt_class_by_index(make_service(TireClass::kC3, 122, "")).has_value());
+  CHECK(!models::doubt_class_by_index(make_service(TireClass::kC3, 118, "L")).has_value());
+  CHECK(!models::doubt_class_by_index(make_service(TireClass::kC3, 0, "")).has_value());  // not known
+  CHECK(!models::doubt_class_by_index(make_service(TireClass::kC2, 109, "")).has_value());
+  CHECK(models::doubt_class_by_index(make_service(TireClass::kC1, 122, "V")).has_value());
+  CHECK(!models::doubt_class_by_index(make_service(TireClass::kC1, 121, "V")).has_value());
+}
+
 TEST_CASE("a tire file with a class needs no more than its RRc", "[fast]") {
   const models::TireFile tire = read_changed_tire("[service_description]\nclass = \"C1\"\nload_index = 91\n",
                                                   "[iso_28580]\nrrc_N_per_kN = 8.4\n");
