@@ -66,6 +66,11 @@ RollingTest read_points(const std::string& path, const RollingLawOptions& option
   put_option(options.maximum_load_N, "--maximum-load", "N", 1.0, test.maximum_load_N, test.warnings);
   put_option(options.base_pressure_Pa, "--base-pressure", "kPa", 1e-3, test.base_pressure_Pa, test.warnings);
   if (options.warm_pressure) warn_of_warm_pressure(path, test);
+  if (test.is_simulated) return test;  // the program set loads and pressures itself
+  for (std::string& doubt :
+       estimation::doubt_tire_limits(test.points, test.maximum_load_N, test.base_pressure_Pa)) {
+    test.warnings.push_back(std::move(doubt));
+  }
   return test;
 }
 
@@ -160,7 +165,8 @@ RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options, 
   check_uncertainty(uncertainty);
   const ReadRecorder recorder;
   RollingTest test = read_points(path, options);
-  const estimation::J2452Fit fit = fit_points(test, &estimation::fit_j2452);
+  estimation::J2452Fit fit = fit_points(test, &estimation::fit_j2452);
+  if (const auto doubt = estimation::doubt_parasitic_loss(fit)) fit.warnings.push_back(*doubt);
   std::optional<estimation::J2452Reference> reference;
   if (const auto at = find_reference(test)) {
     warn_of_reference(*at, true, test);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
 #include <boost/math/constants/constants.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/minima.hpp>
 
 #include "estimation/least_squares/least_squares.h"
@@ -21,6 +23,7 @@ namespace {
 
 constexpr int kJ2452Coefficients = 5;
 constexpr std::size_t kLeastJ2452Points = 6;  // one more than coefficients
+constexpr int kOffsetTerms = 2;               // of a force that depends on speed alone: 1, v^2
 
 using Vector5 = Eigen::Matrix<double, kJ2452Coefficients, 1>;
 
@@ -30,11 +33,19 @@ struct ScaledPoint {
   double log_load = 0.0;
   double x = 0.0;
   double force = 0.0;
+  double speed_squared = 0.0;  // over the highest speed
 };
 
 ScaledPoint scale_point(const J2452Fit& fit, const RollingPoint& point) {
   return {std::log(point.pressure_Pa / fit.pressure_0_Pa), std::log(point.load_N / fit.load_0_N),
-          (point.speed_m_s - fit.speed_0_m_s) / fit.half_range_m_s, point.force_N / fit.force_0_N};
+          (point.speed_m_s - fit.speed_0_m_s) / fit.half_range_m_s, point.force_N / fit.force_0_N,
+          std::pow(point.speed_m_s / (fit.speed_0_m_s + fit.half_range_m_s), 2)};
+}
+
+std::vector<ScaledPoint> scale_points(const J2452Fit& fit, const std::vector<RollingPoint>& points) {
+  std::vector<ScaledPoint> scaled;
+  for (const RollingPoint& point : points) scaled.push_back(scale_point(fit, point));
+  return scaled;
 }
 
 void require_levels(const std::vector<RollingPoint>& points, double RollingPoint::*member, const char* key,
@@ -86,22 +97,33 @@ Vector5 calc_gradient(const Vector5& found, double log_pressure, double log_load
   return gradient;
 }
 
-double calc_residual(const Vector5& found, const ScaledPoint& point) {
-  const double level = std::exp(found(0) * point.log_pressure + found(1) * point.log_load);
-  return level * (found(2) + point.x * (found(3) + point.x * found(4))) - point.force;
+/// The same of a point. Beyond the coefficients of the law stand those of a force that depends on speed alone.
+Eigen::VectorXd calc_row(const Eigen::VectorXd& unknowns, const ScaledPoint& point) {
+  Eigen::VectorXd row(unknowns.size());
+  row.head<kJ2452Coefficients>() = calc_gradient(unknowns.head<kJ2452Coefficients>(), point.log_pressure,
+                                                 point.log_load, point.x, point.x * point.x);
+  if (unknowns.size() > kJ2452Coefficients) row.tail<kOffsetTerms>() << 1.0, point.speed_squared;
+  return row;
 }
 
-Vector5 minimize_scaled(const std::vector<ScaledPoint>& points) {
+double calc_residual(const Eigen::VectorXd& unknowns, const ScaledPoint& point) {
+  const double level = std::exp(unknowns(0) * point.log_pressure + unknowns(1) * point.log_load);
+  const double law = level * (unknowns(2) + point.x * (unknowns(3) + point.x * unknowns(4)));
+  const bool has_offset = unknowns.size() > kJ2452Coefficients;
+  return law + (has_offset ? unknowns(5) + unknowns(6) * point.speed_squared : 0.0) - point.force;
+}
+
+/// From the first unknowns: the coefficients of the law, and perhaps those of a force that depends on speed alone.
+Eigen::VectorXd minimize_scaled(const std::vector<ScaledPoint>& points, std::vector<double> unknowns) {
+  const auto count = static_cast<Eigen::Index>(unknowns.size());
   LeastSquaresProblem problem;
   problem.residuals = points.size();
-  problem.evaluate = [&points](const double* unknowns, double* residuals, double* jacobian) {
-    const Vector5 at = Eigen::Map<const Vector5>(unknowns);
+  problem.evaluate = [&points, count](const double* values, double* residuals, double* jacobian) {
+    const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(values, count);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const ScaledPoint& point = points[i];
-      residuals[i] = calc_residual(at, point);
+      residuals[i] = calc_residual(at, points[i]);
       if (jacobian == nullptr) continue;
-      Eigen::Map<Vector5>(jacobian + i * kJ2452Coefficients) =
-          calc_gradient(at, point.log_pressure, point.log_load, point.x, point.x * point.x);
+      Eigen::Map<Eigen::VectorXd>(jacobian + static_cast<Eigen::Index>(i) * count, count) = calc_row(at, points[i]);
     }
     return true;
   };
@@ -110,12 +132,11 @@ Vector5 minimize_scaled(const std::vector<ScaledPoint>& points) {
   options.function_tolerance = 1e-14;
   options.gradient_tolerance = 1e-14;
   options.parameter_tolerance = 1e-12;
-  std::vector<double> unknowns{-0.4, 1.0, 1.0, 0.1, 0.0};  // of an ordinary tire
   const LeastSquaresResult result = minimize_squares(problem, options, unknowns);
   if (!result.has_converged) {
     throw RunFailure("the fit of the law of SAE J2452 does not converge: " + result.message);
   }
-  return Eigen::Map<const Vector5>(unknowns.data());
+  return Eigen::Map<const Eigen::VectorXd>(unknowns.data(), count);
 }
 
 /// a, b or c as the product of two numbers: exp(u), the scaling's part, and m, linear in q.
@@ -201,7 +222,70 @@ void warn_of_j2452(const Eigen::MatrixXd& jacobian, J2452Fit& fit) {
   if (const auto doubt = doubt_largest_residual(fit.points, fit.statistics, jacobian)) fit.warnings.push_back(*doubt);
 }
 
+/// A force that depends on speed alone, beside the law.
+struct OffsetForce {
+  double value_N = 0.0;  // at the middle speed
+  double chance = 1.0;   // that points without it show as much of it
+  double alpha = 0.0;    // of the law beside it
+  double beta = 0.0;
+};
+
+/// Throws RunFailure where the points do not decide it.
+OffsetForce find_offset_force(const J2452Fit& fit, const std::vector<ScaledPoint>& points) {
+  const Eigen::VectorXd found =
+      minimize_scaled(points, {fit.law.alpha, fit.law.beta, fit.q(0), fit.q(1), fit.q(2), 0.0, 0.0});
+  const auto count = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd jacobian(count, found.size());
+  double squares = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const ScaledPoint& point = points[static_cast<std::size_t>(i)];
+    jacobian.row(i) = calc_row(found, point).transpose();
+    squares += std::pow(calc_residual(found, point), 2);
+  }
+  std::vector<double> leverages;
+  const Eigen::MatrixXd inverse = invert_normal(jacobian, leverages);
+  const double freedom = static_cast<double>(count - found.size());
+  const double middle = fit.speed_0_m_s / (fit.speed_0_m_s + fit.half_range_m_s);
+  const Eigen::Vector2d at_middle(1.0, middle * middle);
+  const double value = found.tail<kOffsetTerms>().dot(at_middle);
+  const Eigen::Matrix2d of_offset = inverse.bottomRightCorner<kOffsetTerms, kOffsetTerms>();
+  const double sd = std::sqrt(squares / freedom * at_middle.dot(of_offset * at_middle));
+  const double t = sd > 0.0 ? value / sd : 0.0;
+  const double chance = boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), t));
+  return {fit.force_0_N * value, chance, found(0), found(1)};
+}
+
 }  // namespace
+
+std::optional<std::string> doubt_parasitic_loss(const J2452Fit& fit) {
+  constexpr double kUnlikely = 5e-4;
+  constexpr double kLeastShare = 0.1;
+  constexpr double kLeastBeta = 0.8;
+  constexpr double kMostBeta = 1.4;
+  constexpr std::size_t kLeastLoads = 3, kLeastFreedom = 3;
+  std::vector<RollingPoint> points;
+  std::vector<double> loads_N;
+  double least_N = std::numeric_limits<double>::infinity();
+  for (const FittedPoint& one : fit.points) {
+    points.push_back(one.point);
+    loads_N.push_back(one.point.load_N);
+    least_N = std::min(least_N, one.point.force_N);
+  }
+  if (points.size() < kJ2452Coefficients + kOffsetTerms + kLeastFreedom) return std::nullopt;
+  if (count_levels(loads_N) < kLeastLoads) return std::nullopt;
+  OffsetForce offset;
+  try {
+    offset = find_offset_force(fit, scale_points(fit, points));
+  } catch (const RunFailure&) {
+    return std::nullopt;
+  }
+  const bool is_of_tire = offset.beta > kLeastBeta && offset.beta < kMostBeta;
+  if (!is_of_tire || offset.chance >= kUnlikely || offset.value_N <= kLeastShare * least_N) return std::nullopt;
+  return fmt::format(
+      "the points show a force of some {:.1f} N that depends neither on load nor on pressure (p = {:.1g}; beside it, "
+      "alpha is {:.2f} and beta {:.2f}): was the parasitic loss not subtracted?",
+      offset.value_N, offset.chance, offset.alpha, offset.beta);
+}
 
 ForceEstimate J2452Fit::estimate(double pressure_Pa, double load_N, double mean_x, double mean_x2) const {
   Vector5 found;
@@ -234,14 +318,12 @@ J2452Fit fit_j2452(const std::vector<RollingPoint>& points) {
   require_decided(points);
   J2452Fit fit;
   choose_scaling(points, fit);
-  std::vector<ScaledPoint> scaled;
-  for (const RollingPoint& point : points) scaled.push_back(scale_point(fit, point));
-  const Vector5 found = minimize_scaled(scaled);
+  const std::vector<ScaledPoint> scaled = scale_points(fit, points);
+  const Vector5 found = minimize_scaled(scaled, {-0.4, 1.0, 1.0, 0.1, 0.0});  // from an ordinary tire
   fit.q = found.tail<3>();
   Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(points.size()), kJ2452Coefficients);
   for (std::size_t i = 0; i < scaled.size(); ++i) {
-    const ScaledPoint& at = scaled[i];
-    const Vector5 gradient = calc_gradient(found, at.log_pressure, at.log_load, at.x, at.x * at.x);
+    const Vector5 gradient = calc_row(found, scaled[i]);
     jacobian.row(static_cast<Eigen::Index>(i)) = gradient.transpose();
     fit.points.push_back({points[i], fit.force_0_N * (gradient.tail<3>().dot(fit.q)), 0.0});
   }

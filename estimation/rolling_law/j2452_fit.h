@@ -51,4 +51,15 @@ struct J2452Fit {
 /// Checked   tests/estimation/rolling_law_test.cpp, rolling_law_coverage_test.cpp
 J2452Fit fit_j2452(const std::vector<RollingPoint>& points);
 
+/// A doubt where the points show a force that depends on speed alone, as a parasitic loss that was not subtracted does.
+/// An exponent of load that no tire has is doubted by doubt_trends().
+///
+/// Equation  F = P^alpha Z^beta (a + b v + c v^2) + e + f v^2;  t = F_e/u(F_e), F_e = e + f v^2 at the middle speed;
+///           doubted if P(t(n - 7) > t) < 0.0005
+/// Validity  three loads or more. A tire whose law bends over load, since a higher load warms it more, hides the loss:
+///           such points show F_e below zero where nothing is wrong
+/// Assumed: the level of significance; F_e above a tenth of the smallest force; beta of 0.8 to 1.4 beside it
+/// Checked   tests/estimation/rolling_law_test.cpp
+std::optional<std::string> doubt_parasitic_loss(const J2452Fit& fit);
+
 }  // namespace rollrig::estimation

@@ -11,8 +11,10 @@
 #include <set>
 #include <utility>
 
+#include "estimation/rolling_law/regression.h"
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
+#include "sim/core/limits.h"
 #include "sim/core/parse_json.h"
 #include "sim/core/units.h"
 
@@ -221,6 +223,7 @@ namespace {
 /// Exponents of the force over pressure, load and speed; empty where the points do not decide it.
 struct Trends {
   std::optional<double> alpha, beta, gamma;
+  double alpha_reach = 0.0;  // half the interval of 95 % of alpha
 };
 
 Trends find_trends(const std::vector<RollingPoint>& points) {
@@ -248,6 +251,10 @@ Trends find_trends(const std::vector<RollingPoint>& points) {
   if (rows <= columns || solver.rank() < columns) return trends;
   const Eigen::VectorXd found = solver.solve(log_force);
   for (Eigen::Index i = 1; i < columns; ++i) *varied[static_cast<std::size_t>(i) - 1].second = found(i);
+  const auto freedom = static_cast<int>(rows - columns);
+  const double variance = (log_force - design * found).squaredNorm() / freedom;
+  const Eigen::MatrixXd inverse = (design.transpose() * design).inverse();
+  if (trends.alpha.has_value()) trends.alpha_reach = calc_student_reach(freedom) * std::sqrt(variance * inverse(1, 1));
   return trends;
 }
 
@@ -255,7 +262,8 @@ Trends find_trends(const std::vector<RollingPoint>& points) {
 
 std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points) {
   constexpr double kMostAlpha = 0.02;
-  constexpr double kLeastBeta = 0.5;
+  constexpr double kLeastAlpha = -0.55;
+  constexpr double kLeastBeta = 0.7;
   constexpr double kMostBeta = 2.0;
   constexpr double kMostFall = 0.05;
   std::vector<std::string> doubts;
@@ -266,12 +274,18 @@ std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points) {
                     "falls: are pressures exchanged between points?",
                     *trends.alpha));
   }
+  if (trends.alpha.value_or(0.0) + trends.alpha_reach < kLeastAlpha) {
+    doubts.push_back(
+        fmt::format("rolling resistance goes with pressure to the power {:.2g}, where tests of tires found -0.3 to -0.5: "
+                    "are the pressures absolute and not gauge, {:.0f} kPa too high?",
+                    *trends.alpha, kStandardAtmosphere_Pa / 1e3));
+  }
   const double beta = trends.beta.value_or(1.0);
   if (beta < kLeastBeta || beta > kMostBeta) {
     doubts.push_back(fmt::format(
-        "rolling resistance goes with load to the power {:.2g}, where tires have 0.8 to 1.5: are loads exchanged "
+        "rolling resistance goes with load to the power {:.2g}, where tires have 0.8 to 1.5: {}are loads exchanged "
         "between points?",
-        beta));
+        beta, beta < kLeastBeta ? "is the parasitic loss not subtracted, which does not depend on load, or " : ""));
   }
   if (!trends.gamma.has_value()) return doubts;
   const auto [slow, fast] = std::minmax_element(points.begin(), points.end(), [](const auto& one, const auto& other) {
@@ -283,6 +297,55 @@ std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points) {
         fmt::format("rolling resistance falls by some {:.0f} % from {:.0f} to {:.0f} km/h: in a coastdown the tire "
                     "stays warm, and it rises. Are the speeds in the order of the points?",
                     -1e2 * change, kKmhPerMs * slow->speed_m_s, kKmhPerMs * fast->speed_m_s));
+  }
+  return doubts;
+}
+
+namespace {
+
+/// Loads above what the tire may carry.
+std::optional<std::string> doubt_loads(const std::vector<RollingPoint>& points, double maximum_load_N) {
+  constexpr double kMostShare = 1.2;
+  double load_N = 0.0;
+  for (const RollingPoint& point : points) load_N = std::max(load_N, point.load_N);
+  if (is_at_most(load_N, kMostShare * maximum_load_N)) return std::nullopt;
+  return fmt::format(
+      "the largest load, {:.0f} N, is {:.2g} times the maximum load of the tire, {:.0f} N: is it the load of two tires "
+      "or of an axle, or is the maximum load that of another tire, or not in N?",
+      load_N, load_N / maximum_load_N, maximum_load_N);
+}
+
+/// Pressures above what the tire is tested at.
+std::optional<std::string> doubt_pressures(const std::vector<RollingPoint>& points, double base_pressure_Pa) {
+  constexpr double kMostShare = 1.5;
+  double low_Pa = points.front().pressure_Pa, high_Pa = low_Pa;
+  for (const RollingPoint& point : points) {
+    low_Pa = std::min(low_Pa, point.pressure_Pa);
+    high_Pa = std::max(high_Pa, point.pressure_Pa);
+  }
+  const double reference_Pa = base_pressure_Pa + kReferencePressureAboveBase_Pa;
+  const double less_Pa = kStandardAtmosphere_Pa;
+  const bool would_hold = low_Pa - less_Pa <= reference_Pa && reference_Pa <= high_Pa - less_Pa;
+  const bool is_absolute = low_Pa > reference_Pa && would_hold;
+  if (!is_absolute && is_at_most(high_Pa, kMostShare * base_pressure_Pa)) return std::nullopt;
+  return fmt::format(
+      "the pressures, {:.0f} to {:.0f} kPa, are high for a base pressure of {:.0f} kPa{}: are they absolute and not "
+      "gauge, or is the base pressure that of another tire?",
+      low_Pa / 1e3, high_Pa / 1e3, base_pressure_Pa / 1e3,
+      would_hold ? fmt::format(", and {:.0f} kPa less would go with it", less_Pa / 1e3) : "");
+}
+
+}  // namespace
+
+std::vector<std::string> doubt_tire_limits(const std::vector<RollingPoint>& points,
+                                           const std::optional<double>& maximum_load_N,
+                                           const std::optional<double>& base_pressure_Pa) {
+  std::vector<std::string> doubts;
+  if (points.empty()) return doubts;
+  const auto of_load = maximum_load_N.has_value() ? doubt_loads(points, *maximum_load_N) : std::nullopt;
+  const auto of_pressure = base_pressure_Pa.has_value() ? doubt_pressures(points, *base_pressure_Pa) : std::nullopt;
+  for (const auto& doubt : {of_load, of_pressure}) {
+    if (doubt.has_value()) doubts.push_back(*doubt);
   }
   return doubts;
 }

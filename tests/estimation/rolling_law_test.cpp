@@ -284,6 +284,93 @@ TEST_CASE("values that stand in the wrong rows are doubted, whatever law is fitt
   CHECK(estimation::doubt_trends(points).empty());  // they do not decide it
 }
 
+TEST_CASE("pressures that are absolute are doubted by the base pressure, or by how the force goes with them", "[fast]") {
+  std::vector<RollingPoint> points = make_points();
+  CHECK(estimation::doubt_tire_limits(points, 6570.0, 240e3).empty());
+  CHECK(estimation::doubt_tire_limits(points, std::nullopt, std::nullopt).empty());
+  for (RollingPoint& point : points) point.pressure_Pa += 101.3e3;
+  const auto doubts = estimation::doubt_tire_limits(points, 6570.0, 240e3);
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Catch::Contains("301 to 401 kPa") && Catch::Contains("absolute and not gauge"));
+  const auto trends = estimation::doubt_trends(points);  // without a base pressure
+  REQUIRE(trends.size() == 1);
+  CHECK_THAT(trends[0], Catch::Contains("to the power -0.59") && Catch::Contains("absolute and not gauge"));
+  for (RollingPoint& point : points) point.pressure_Pa -= 201.3e3;  // a wide grid from 100 to 200 kPa ...
+  for (std::size_t i = 0; i < 6; ++i) points[i].pressure_Pa = 300e3;
+  CHECK(estimation::doubt_tire_limits(points, 6570.0, 210e3).empty());
+  for (RollingPoint& point : points) point.pressure_Pa += 101.3e3;  // ... that also holds the reference as absolute
+  CHECK(estimation::doubt_tire_limits(points, 6570.0, 210e3).size() == 1);
+  CHECK(estimation::doubt_points({}).empty());
+  CHECK(estimation::doubt_tire_limits({}, 6570.0, 240e3).empty());
+}
+
+TEST_CASE("loads above what the tire may carry are doubted: two tires, an axle", "[fast]") {
+  std::vector<RollingPoint> points = make_points();
+  CHECK(estimation::doubt_tire_limits(points, 6000.0, 240e3).empty());
+  CHECK(estimation::doubt_tire_limits(points, 5000.0, 240e3).empty());  // 1.2 times it
+  for (RollingPoint& point : points) point.load_N *= 2.0;
+  const auto doubts = estimation::doubt_tire_limits(points, 6570.0, 240e3);
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Catch::Contains("12000 N, is 1.8 times the maximum load"));
+}
+
+namespace {
+
+/// 30 points of a law as it may be: exponents, level and slopes over speed, by the seed; normal noise.
+std::vector<RollingPoint> make_points_of_some_tire(std::uint64_t seed, double offset_N, double of_square_N) {
+  RandomStream random(seed, "some tire");
+  const auto between = [&random](double low, double high) { return low + (high - low) * random.uniform(); };
+  const double maximum_N = between(4500.0, 9000.0), base_kPa = between(230.0, 290.0);
+  const J2452Law law{between(-0.5, -0.25), between(0.8, 1.1), 1.0, between(0.0, 2.5e-3), between(0.0, 8e-6)};
+  const double level = between(5.5e-3, 11e-3) * 0.7 * maximum_N /
+                       law.calc_force_N(1e3 * (base_kPa + 20.0), 0.7 * maximum_N, 80.0 / 3.6);
+  const double noise_N = between(0.03, 0.3);
+  std::vector<RollingPoint> points;
+  for (const auto& [share, above_kPa] :
+       {std::pair(0.3, 10.0), std::pair(0.6, -40.0), std::pair(0.9, 60.0), std::pair(0.9, -40.0), std::pair(0.3, 60.0)}) {
+    for (const double km_h : {115.0, 95.0, 75.0, 55.0, 35.0, 15.0}) {
+      RollingPoint point{km_h / 3.6, share * maximum_N, 1e3 * (base_kPa + above_kPa), 0.0};
+      point.force_N = level * law.calc_force_N(point.pressure_Pa, point.load_N, point.speed_m_s) + offset_N +
+                      of_square_N * std::pow(km_h / 115.0, 2) + noise_N * random.normal();
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+/// How many of 100 tires are doubted for a parasitic loss, by the exponent of load or by the force that is left.
+int count_parasitic_doubts(double offset_N, double of_square_N) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const std::vector<RollingPoint> points = make_points_of_some_tire(seed, offset_N, of_square_N);
+    const auto by_trends = estimation::doubt_trends(points);
+    const bool by_exponent = std::any_of(by_trends.begin(), by_trends.end(), [](const std::string& doubt) {
+      return doubt.find("is the parasitic loss not subtracted") != std::string::npos;
+    });
+    if (by_exponent || estimation::doubt_parasitic_loss(estimation::fit_j2452(points)).has_value()) ++found;
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a parasitic loss that was not subtracted shows beside the law, and tires without one are not doubted",
+          "[fast]") {
+  CHECK(count_parasitic_doubts(0.0, 0.0) == 0);
+  CHECK(count_parasitic_doubts(6.0, 0.0) >= 90);
+  CHECK(count_parasitic_doubts(8.0, 9.0) >= 90);  // of a drum, with its air drag
+  CHECK_FALSE(estimation::doubt_parasitic_loss(estimation::fit_j2452(make_points())).has_value());
+  std::vector<RollingPoint> points = make_points();
+  for (RollingPoint& point : points) point.force_N += 6.0;
+  const auto doubt = estimation::doubt_parasitic_loss(estimation::fit_j2452(points));
+  REQUIRE(doubt.has_value());
+  CHECK_THAT(*doubt, Catch::Contains("6.0 N") && Catch::Contains("alpha is -0.42 and beta 0.93"));
+  for (RollingPoint& point : points) point.force_N += 14.0;  // more than half of the smallest force
+  const auto trends = estimation::doubt_trends(points);
+  REQUIRE(trends.size() == 1);
+  CHECK_THAT(trends[0], Catch::Contains("is the parasitic loss not subtracted"));
+}
+
 TEST_CASE("a point that the law misses is named by its line", "[fast]") {
   std::vector<RollingPoint> points = make_points();
   points[7].force_N *= 1.3;
