@@ -87,7 +87,9 @@ void add_align_command(CLI::App& app, Action& action) {
                     "Compute an alignment that breaks rules as well; it is not valid");
   command->add_flag("--first-excluded", input.first_excluded,
                     "The file already omits the first measurement of each tire, which is not used");
-  command->add_option("--on", input.on, "Day on which validity is judged [last of the machine; of --apply: today]");
+  command->add_option("--on", input.on,
+                      "Day on which validity is judged [day of the last row, or of --machine-changed if later; with "
+                      "--apply: today]");
   command->add_option("--machine-changed", input.machine_changed, "Day of the last significant change of the machine");
   CLI::Option* apply = command->add_option("--apply", options->value.alignment, "Alignment (.json) to apply to --rrc");
   CLI::Option* rrc =

@@ -47,7 +47,7 @@ Table make_alignment_overview(const AlignmentFile& file, const AlignmentResult& 
   if (!file.is_assigned && result.is_of_network) {
     add("A1, B1 of the reference", fmt::format("{:.4f}, {:.4f} N/kN", line.A1, line.B1));
   }
-  add("RRC aligned", fmt::format("{:.4f} x RRC measured {} {:.4f} N/kN", line.calc_factor(),
+  add("RRc aligned", fmt::format("{:.4f} x RRc measured {} {:.4f} N/kN", line.calc_factor(),
                                  line.calc_offset() < 0.0 ? '-' : '+', std::abs(line.calc_offset())));
   add("sigma_m of the machine", show_sigma(result.sigma_m));
   if (result.sigma_l.has_value()) add("sigma_m of the reference machine", show_sigma(*result.sigma_l));
@@ -127,8 +127,8 @@ Block make_line_chart(const AlignmentResult& result) {
   const LineFit& fit = result.fit;
   for (const LinePoint& point : fit.points) tires.add(point.x, point.y);
   for (const double x : {fit.points.front().x, fit.points.back().x}) line.add(x, fit.value(x));
-  return make_curves({"RRC on this machine", "N/kN"}, {"RRC of the reference", "N/kN"},
-                     Json::array({tires.finish("alignment tires"), line.finish("A2 RRC + B2", "line")}));
+  return make_curves({"RRc on this machine", "N/kN"}, {"RRc of the reference", "N/kN"},
+                     Json::array({tires.finish("alignment tires"), line.finish("A2 RRc + B2", "line")}));
 }
 
 Block make_alignment_residual_chart(const AlignmentResult& result) {
@@ -139,7 +139,7 @@ Block make_alignment_residual_chart(const AlignmentResult& result) {
     points.add(point.x, point.residual, point.residual - half, point.residual + half);
   }
   Block block =
-      make_curves({"RRC on this machine", "N/kN"}, {"Reference minus line", "N/kN"},
+      make_curves({"RRc on this machine", "N/kN"}, {"Reference minus line", "N/kN"},
                   Json::array({points.finish("alignment tires")}), "Bars: two standard deviations by the repeats.");
   block["marks"] = {0.0};
   return block;
@@ -151,7 +151,7 @@ Block make_control_chart(const ControlChart& chart) {
     points.add((chart.time_s[i] - chart.time_s.front()) / 86400.0, chart.rrc_N_per_kN[i]);
   }
   Block block = make_curves({fmt::format("Days since {}", estimation::format_day(chart.time_s.front())), ""},
-                            {"RRC of " + chart.tire, "N/kN"}, Json::array({points.finish(chart.tire)}),
+                            {"RRc of " + chart.tire, "N/kN"}, Json::array({points.finish(chart.tire)}),
                             "Lines: mean and limits: three standard deviations, and half a step of the values.");
   block["marks"] = {chart.low_N_per_kN, chart.center_N_per_kN, chart.high_N_per_kN};
   return block;
@@ -190,7 +190,7 @@ Block make_alignment_lead(const AlignmentFile& file, const AlignmentResult& resu
   const estimation::AlignmentLine& line = result.line;
   return make_lead(
       result.is_valid ? "good" : "bad",
-      fmt::format("The alignment of {} is {} until {}: the aligned RRC is {:.4f} (A1 A2) times the measured RRC "
+      fmt::format("The alignment of {} is {} until {}: the aligned RRc is {:.4f} (A1 A2) times the measured RRc "
                   "{} {:.4f} N/kN.",
                   name_or(file.machine, "the machine"), result.is_valid ? "valid" : "not valid; it would be valid",
                   estimation::format_day(result.valid_until_s), line.calc_factor(),

@@ -45,7 +45,7 @@ ReportSection make_alignment_result(const estimation::AlignmentResult& result, c
     form.fields.push_back(make_field("Align again", reason.get<std::string>()));
   }
   return {"Alignment",
-          {ReportText{"RRC aligned = A1 (A2 RRC measured + B2) + B1, with RRC measured at 25 °C and for the 2 m drum."},
+          {ReportText{"RRc aligned = A1 (A2 RRc measured + B2) + B1, with RRc measured at 25 °C and for the 2 m drum."},
            form}};
 }
 

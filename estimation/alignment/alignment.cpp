@@ -21,6 +21,7 @@ constexpr const char* kSection1 = "EU 2020/740 Annex V, 1(4) and 5";
 constexpr const char* kSection2 = "EU 2020/740 Annex V, 2.2; second-hand";
 constexpr const char* kSection5 = "EU 2020/740 Annex V, 5";
 constexpr const char* kSection3 = "EU 2020/740 Annex V, 3; second-hand";
+constexpr const char* kLargestResidual = "largest residual";
 constexpr double kMostBend_N_per_kN = 0.02;  // Assumed: a fifth of the 0.1 N/kN to which a label is rounded
 constexpr double kMostScatter_N_per_kN = 0.1;  // Assumed: of tires about a line; a label is rounded to it
 constexpr double kNoLineLevel = 0.001;         // Assumed: of significance of such scatter
@@ -38,6 +39,23 @@ double calc_sd_of_mean(double sd, const std::vector<std::vector<double>>& groups
   double inverse = 0.0;
   for (const std::vector<double>& group : groups) inverse += 1.0 / static_cast<double>(group.size());
   return std::max(sd * std::sqrt(inverse / static_cast<double>(groups.size())), calc_rounding_sd(step));
+}
+
+/// A tire that the line of the others does not describe.
+std::string describe_outlier(const AlignmentFile& file, const LineFit& fit, const LineOutlier& outlier) {
+  const LinePoint& point = fit.points[outlier.place];
+  return fmt::format(
+      "tire '{}' does not fit the line of the other tires: by it, {:.2f} N/kN is {:.2f} N/kN on the reference machine, "
+      "which has {:.2f} N/kN (p = {:.1g}). Is a value of it typed wrong, or was the tire exchanged or damaged?",
+      file.tires[outlier.place].name, point.x, outlier.by_others_y, point.y, outlier.p_value);
+}
+
+/// The same behind another sentence; empty where there is none.
+std::string mention_outlier(const AlignmentFile& file, const AlignmentResult& result) {
+  if (!result.outlier.has_value()) return "";
+  std::string text = describe_outlier(file, result.fit, *result.outlier);
+  text.front() = 'T';
+  return ". " + text;
 }
 
 bool are_equal(const std::vector<double>& values) {
@@ -76,8 +94,10 @@ void fit_machines(const AlignmentFile& file, AlignmentResult& result) {
                       ""});
   }
   result.fit = fit_line(x, y, repeats);
+  result.outlier = find_line_outlier(result.fit, kMostScatter_N_per_kN);
   if (result.fit.slope > 0.0) return;
-  throw InputError({fmt::format("the two machines order the tires the other way round (A2 = {:.3f})", result.fit.slope),
+  throw InputError({fmt::format("the two machines order the tires the other way round (A2 = {:.3f}){}", result.fit.slope,
+                                mention_outlier(file, result)),
                     file.path, 0, "", "",
                     "values of the reference that rise with the measured ones: are names of tires "
                     "exchanged?",
@@ -126,7 +146,7 @@ void add_rules(const AlignmentFile& file, AlignmentResult& result) {
   result.checks.push_back({"alignment tires", fmt::format("{}", file.tires.size()),
                            fmt::format(">= {}", rules.least_tires), kSection1, file.tires.size() >= rules.least_tires,
                            true, true});
-  result.checks.push_back({"range of RRC, before and after", fmt::format("{:.2f} N/kN", range),
+  result.checks.push_back({"range of RRc, before and after", fmt::format("{:.2f} N/kN", range),
                            fmt::format(">= {:g} N/kN ({})", rules.least_range_N_per_kN, rules.classes), kSection2,
                            is_at_least(range, rules.least_range_N_per_kN), true, true});
   const std::size_t kept = count_fewest(file, &AlignmentTire::candidate);
@@ -167,12 +187,13 @@ void add_rules(const AlignmentFile& file, AlignmentResult& result) {
   }
 }
 
-/// Refuses what is no alignment.
-void require_rules(const AlignmentFile& file, const std::vector<AlignmentCheck>& checks) {
-  for (const AlignmentCheck& check : checks) {
+/// Refuses what is no alignment. One tire that does not fit changes the slope, and so the range.
+void require_rules(const AlignmentFile& file, const AlignmentResult& result) {
+  for (const AlignmentCheck& check : result.checks) {
     if (check.is_met || !check.stops_fit) continue;
-    throw InputError({fmt::format("these measurements do not make an alignment: {}", check.name), file.path, 0, "",
-                      check.found,
+    throw InputError({fmt::format("these measurements do not make an alignment: {}{}", check.name,
+                                  mention_outlier(file, result)),
+                      file.path, 0, "", check.found,
                       fmt::format("{} ({}); --preliminary to compute it all the same", check.limit, check.source), ""});
   }
 }
@@ -197,7 +218,7 @@ void add_advice(const AlignmentFile& file, AlignmentResult& result) {
       std::max_element(fit.points.begin(), fit.points.end(),
                        [&weigh](const LinePoint& a, const LinePoint& b) { return weigh(a) < weigh(b); });
   const std::size_t index = static_cast<std::size_t>(worst - fit.points.begin());
-  advise("largest residual",
+  advise(kLargestResidual,
          fmt::format("tire '{}': {:+.3f} N/kN (p = {})", file.tires[index].name, worst->residual,
                      format_p_value(worst->p_value, kLevel)),
          level, is_at_least(worst->p_value, kLevel));
@@ -348,13 +369,14 @@ std::optional<std::string> doubt_line(const char* A, const char* B, double slope
   const double most = std::max({std::abs(slope - 1.0), std::abs(calc_change(low)), std::abs(calc_change(high))});
   if (is_at_most(most, kMostChange)) return std::nullopt;
   return fmt::format(
-      "{} = {:.3f} and {} = {:.3f} N/kN change RRC by {:+.0f} % at {:.2f} N/kN and by {:+.0f} % at {:.2f} N/kN; "
+      "{} = {:.3f} and {} = {:.3f} N/kN change RRc by {:+.0f} % at {:.2f} N/kN and by {:+.0f} % at {:.2f} N/kN; "
       "machines seldom differ by more than {:.0f} %: are both values corrected to 25 degC and the 2 m drum, and in one "
       "unit?",
       A, slope, B, offset, 100.0 * calc_change(low), low, 100.0 * calc_change(high), high, 100.0 * kMostChange);
 }
 
-void add_line_warnings(AlignmentResult& result) {
+void add_line_warnings(const AlignmentFile& file, AlignmentResult& result) {
+  if (result.outlier.has_value()) result.warnings.push_back(describe_outlier(file, result.fit, *result.outlier));
   if (!result.is_of_network) {
     result.warnings.push_back(
         "A1 and B1 of the reference laboratory are not given (--reference): the result is aligned "
@@ -368,7 +390,8 @@ void add_line_warnings(AlignmentResult& result) {
     if (doubt.has_value()) result.warnings.push_back(*doubt);
   }
   for (const AlignmentCheck& check : result.checks) {
-    if (!check.is_met && !check.is_rule) {
+    const bool is_said = result.outlier.has_value() && check.name == kLargestResidual;
+    if (!check.is_met && !check.is_rule && !is_said) {
       result.warnings.push_back(fmt::format("{}: {}; expected {}", check.name, check.found, check.limit));
     }
   }
@@ -403,14 +426,14 @@ AlignmentResult align_machine(const AlignmentFile& file, const AlignmentInput& i
   result.line = make_line(result, input);
   result.is_of_network = input.reference.has_value() || file.is_assigned;
   add_rules(file, result);
-  if (!input.preliminary) require_rules(file, result.checks);
+  if (!input.preliminary) require_rules(file, result);
   add_advice(file, result);
   result.monitoring = watch_control_tires(file.controls);
   judge_validity(file, input, result);
   add_monitoring(file, result);
   add_reference_monitoring(file, result);
   add_unused_rows(file, result.warnings);
-  add_line_warnings(result);
+  add_line_warnings(file, result);
   for (const std::string& doubt : list_value_doubts(file)) result.warnings.push_back(doubt);
   for (const std::string& doubt : list_line_doubts(file, result.fit, result.plain_repeats)) {
     result.warnings.push_back(doubt);

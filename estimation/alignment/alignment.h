@@ -22,6 +22,7 @@ struct AlignmentResult {
   std::size_t needed_measurements = 4;     // of each tire, at this sigma_m
   ControlMonitoring monitoring;            // of the candidate machine
   ControlMonitoring reference_monitoring;  // of the reference machine
+  std::optional<LineOutlier> outlier;      // the tire that the line of the others does not describe
   std::vector<AlignmentCheck> checks;
   std::vector<std::string> due_because;  // reasons to align anew; empty: none
   double valid_until_s = 0.0;
@@ -32,7 +33,7 @@ struct AlignmentResult {
 };
 
 /// Fit, uncertainty, rules.
-/// Equation  RRC_l = A2 RRC_c + B2 over the means of the alignment tires; fit_line(), align_value()
+/// Equation  RRc_l = A2 RRc_c + B2 over the means of the alignment tires; fit_line(), align_value()
 /// Source    EU 2020/740 Annex V Sections 5 and 6; Section 6 as (EC) 1222/2009 Annex IVa Section 6 has it
 /// Errors    InputError: rules that are broken, unless input.preliminary; a line that falls; a day that is none
 /// Checked   tests/estimation/alignment_test.cpp

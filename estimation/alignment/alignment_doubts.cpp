@@ -330,7 +330,7 @@ std::optional<std::string> doubt_near_line(const LineFit& fit, const RepeatScatt
   const double p = calc_too_near_p(fit, repeat_sd, repeats.degrees_of_freedom);
   if (p >= kTooNearLevel) return std::nullopt;
   return fmt::format(
-      "the tires lie within {:.5f} N/kN of the line, much nearer than the {:.3f} N/kN that the repeats let expect (p = "
+      "the tires lie within {:.5f} N/kN of the line, much nearer than the {:.3f} N/kN by which the repeats scatter (p = "
       "{:.1g}): were the values of one machine computed from those of the other?",
       fit.residual_sd, repeat_sd, p);
 }

@@ -12,14 +12,14 @@ namespace rollrig::estimation {
 /// A sentence for each doubt of the measured values. All used values of each tire on a machine are equal. Nearly all
 /// used values of the candidate stand among those of the same tire on the reference machine. All tires have the values
 /// of an earlier round, or of an earlier day, of the same machine. A tire has the values of another one on a machine.
-/// The mean RRC of the tires of a class is not one of the class, as models::doubt_class_by_mean() says. Coarse values
+/// The mean RRc of the tires of a class is not one of the class, as models::doubt_class_by_mean() says. Coarse values
 /// are equal by chance. A copy is therefore doubted only where chance would hardly make it, as the other equal values
 /// of the tires show.
 /// Checked   tests/estimation/alignment_test.cpp
 std::vector<std::string> list_value_doubts(const AlignmentFile& file);
 
-/// A sentence for each doubt of the line. The tires lie much nearer to it than the repeats let expect: the values of
-/// one machine were computed from the other's. So they are where the measurements of both machines scatter together,
+/// A sentence for each doubt of the line. The tires lie much nearer to it than the scatter of the repeats makes likely:
+/// the values of one machine were computed from the other's. So they are where the measurements of both machines scatter together,
 /// paired by their order; both only where the values are fine enough. Nearly all values of the reference are the
 /// candidate's own means, rounded as they are.
 /// `repeats`: scatter of the means without the rounding of the values, which is no scatter.

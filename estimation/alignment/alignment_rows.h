@@ -9,7 +9,7 @@
 
 namespace rollrig::estimation {
 
-/// One measurement: RRC at 25 degC and for the 2 m drum.
+/// One measurement: RRc at 25 degC and for the 2 m drum.
 struct AlignmentMeasurement {
   double time_s = 0.0;  // since 1970-01-01, on the laboratory's clock
   double rrc_N_per_kN = 0.0;

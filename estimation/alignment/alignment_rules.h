@@ -12,7 +12,7 @@ struct AlignmentRules {
   std::string classes;           // "C1, C2"
   double sigma_m_N_per_kN;       // most, of a candidate; Section 5
   double gamma_N_per_kN;         // of the number of measurements; Section 5
-  double least_range_N_per_kN;   // of the tires' RRC; Section 2.2. Second-hand
+  double least_range_N_per_kN;   // of the tires' RRc; Section 2.2. Second-hand
   std::size_t least_tires = 5;   // Section 1(4), Section 5
   std::size_t measurements = 4;  // of a tire, the first of which is not used; Section 5
   int years_valid = 2;           // "at least once every second year"; Section 5

@@ -56,9 +56,9 @@ MeasurementModel make_alignment_model(const AlignmentResult& result) {
   MeasurementModel model;
   model.measurands = {{"A2", "A2"},
                       {"B2", "B2_N_per_kN"},
-                      {"aligned, least RRC", "aligned_least_N_per_kN"},
+                      {"aligned, least RRc", "aligned_least_N_per_kN"},
                       {"aligned, middle", "aligned_middle_N_per_kN"},
-                      {"aligned, greatest RRC", "aligned_greatest_N_per_kN"}};
+                      {"aligned, greatest RRc", "aligned_greatest_N_per_kN"}};
   const std::vector<UncertainInput> of_x =
       make_scatter_inputs(p, result.sigma_m.degrees_of_freedom, "candidate machine: means of the tires",
                           "sigma_m of the candidate machine, from the repeats");
@@ -95,7 +95,7 @@ MeasurementModel make_alignment_model(const AlignmentResult& result) {
 
 MeasurementModel make_aligned_value_model(const AlignmentLine& line, double rrc_N_per_kN, int measurements) {
   MeasurementModel model;
-  model.measurands = {{"aligned RRC", "aligned_N_per_kN"}};
+  model.measurands = {{"aligned RRc", "aligned_N_per_kN"}};
   const std::vector<UncertainInput> of_x =
       make_scatter_inputs(2, line.sigma_m_freedom, "A2 and B2, by sigma_m of the candidate machine",
                           "sigma_m of the candidate machine, from the repeats");

@@ -10,7 +10,7 @@ namespace rollrig::estimation {
 ///
 /// Each evaluation fits the line again, to means that have the errors of its inputs.
 /// Equation  x_i = X_i + u_x k_x z_i,  y_i = A2 X_i + B2 + u_y k_y w_i,  u_y^2 = max(0, s^2 - A2^2 u_x^2);
-///           RRC = A1 (A2 (x + e) + B2 + d) + B1
+///           RRc = A1 (A2 (x + e) + B2 + d) + B1
 /// Symbols   X_i means of the tires on the candidate machine, u_x their standard deviation by the repeats; y_i values of
 ///           the reference machine; s scatter about the line; k_x z_i and k_y w_i as in make_scatter_inputs(); x a
 ///           measured value, e its scatter (sigma_m); d tire-to-tire scatter about the line (tau of fit_line). Inputs
@@ -21,7 +21,7 @@ namespace rollrig::estimation {
 MeasurementModel make_alignment_model(const AlignmentResult& result);
 
 /// One aligned value: the mean of `measurements` measurements on the candidate machine.
-/// Equation  RRC = A1 (L + a (x + e - mean_x) + d) + B1
+/// Equation  RRc = A1 (L + a (x + e - mean_x) + d) + B1
 /// Symbols   L value of the line at mean_x, a its slope, with standard deviations s/sqrt(p) and s/sqrt(Sxx),
 ///           independent of each other, s^2 = A2^2 u_x^2 + u_y^2; e, d as above
 /// Source    the equations of align_value()

@@ -61,7 +61,7 @@ inline constexpr double kShiftLevel = 0.005;                 // Assumed: of a sh
 ///           shift: the same with 1 from a day on, else 0, for t; the day, with two measurements on each side at least,
 ///           of the greatest t; Bonferroni over the days. Of drift and shift, the one of the smaller p. A chart has the
 ///           shift of its tire alone, the monitoring the one that all tires have in common
-/// Validity  a common slope: a machine that drifts by a share moves tires of different RRC by different amounts, of
+/// Validity  a common slope: a machine that drifts by a share moves tires of different RRc by different amounts, of
 ///           which this is the mean. A tire that ages drifts as well: several control tires tell it from the machine
 /// Source    ISO 7870-2, charts of individuals and moving ranges (1.128 = d2 of two values). Second-hand
 /// Checked   tests/estimation/control_tires_test.cpp

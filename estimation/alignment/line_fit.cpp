@@ -169,6 +169,19 @@ LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, con
   return fit;
 }
 
+std::optional<LineOutlier> find_line_outlier(const LineFit& fit, double least_miss) {
+  constexpr double kUnlikely = 0.005;
+  const auto weigh = [](const LinePoint& point) {
+    return std::isfinite(point.studentized) ? std::abs(point.studentized) : 0.0;
+  };
+  const auto worst = std::max_element(fit.points.begin(), fit.points.end(),
+                                      [&](const LinePoint& a, const LinePoint& b) { return weigh(a) < weigh(b); });
+  if (worst == fit.points.end() || weigh(*worst) <= 0.0 || worst->p_value >= kUnlikely) return std::nullopt;
+  const double miss = worst->residual / (1.0 - worst->leverage);
+  if (std::abs(miss) <= least_miss) return std::nullopt;
+  return LineOutlier{static_cast<std::size_t>(worst - fit.points.begin()), worst->y - miss, worst->p_value};
+}
+
 AlignmentLine make_alignment_line(const LineFit& fit, const ScatterEstimate& sigma_m, double reference_freedom) {
   AlignmentLine line;
   line.A2 = fit.slope;

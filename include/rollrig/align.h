@@ -38,7 +38,7 @@ struct AlignmentCheck {
   bool stops_fit = false;  // where it is not met, there is no alignment unless `preliminary` asks for one
 };
 
-/// RRC_aligned = A1 (A2 RRC_m + B2) + B1. Its files: alignment.json, measurements.csv; its test report
+/// RRc_aligned = A1 (A2 RRc_m + B2) + B1. Its files: alignment.json, measurements.csv; its test report
 /// is the certificate.
 struct Alignment : Report {
   ParameterEstimate A2;  // of the reference machine's value over the candidate's
@@ -55,7 +55,7 @@ struct Alignment : Report {
 };
 
 /// Fits A2 and B2, checks the rules of EU 2020/740 Annex V, and watches control tires.
-/// Errors  InputError: a wrong file; classes that do not go together; a value that is no RRC in N/kN; two measurements
+/// Errors  InputError: a wrong file; classes that do not go together; a value that is no RRc in N/kN; two measurements
 ///         of a tire at one time; a tire without a reference value, or the other way round; unless `preliminary`, fewer
 ///         than five tires, fewer than four measurements of a tire, or too narrow a range
 Alignment align(const AlignmentInput& input, const UncertaintyOptions& uncertainty = {}, const Progress& progress = {});
@@ -76,13 +76,13 @@ struct AlignedValue : Report {
   std::vector<std::string> warnings;
 };
 
-/// RRC_aligned = A1 (A2 RRC_m + B2) + B1. Its uncertainty holds the line, what tires differ by beside it, and the
+/// RRc_aligned = A1 (A2 RRc_m + B2) + B1. Its uncertainty holds the line, what tires differ by beside it, and the
 /// scatter of `measurements` measurements; that of A1 and B1 is not included.
 /// Validity  the range of the alignment tires, from its last measurement until the day in the file; beyond them a
 ///           warning says so
 /// Source    EU 2020/740, Annex V, Section 6
 /// Errors    InputError: a wrong file or day, one that was changed by hand, a class that is not that of the alignment,
-///           a value that is no RRC in N/kN, fewer than one measurement
+///           a value that is no RRc in N/kN, fewer than one measurement
 AlignedValue apply_alignment(const AlignedValueInput& input, const UncertaintyOptions& uncertainty = {},
                              const Progress& progress = {});
 

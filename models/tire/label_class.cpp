@@ -93,7 +93,7 @@ std::optional<std::string> doubt_class_by_mean(TireClass tire_class, double mean
   std::string limit = compare_with_least(tire_class, mean_rrc);
   if (!is_at_most(mean_rrc, most)) limit = fmt::format("above {:g} N/kN, the limit of UN R117, stage 1", most / kPerKilo);
   if (limit.empty()) return std::nullopt;
-  return fmt::format("the tires of class {} have a mean RRC of {:.2f} N/kN, {}: is the class right?",
+  return fmt::format("the tires of class {} have a mean RRc of {:.2f} N/kN, {}: is the class right?",
                      name_of(tire_class), mean_rrc / kPerKilo, limit);
 }
 

@@ -226,7 +226,7 @@ TEST_CASE("tires whose class is hardly theirs are doubted", "[fast]") {
     return flatten(run.out);
   };
   CHECK_THAT(align_tires("C3", 6.1, 1.075),
-             Contains("the tires of class C3 have a mean RRC of") && Contains("above 8 N/kN, the limit of UN R117"));
+             Contains("the tires of class C3 have a mean RRc of") && Contains("above 8 N/kN, the limit of UN R117"));
   CHECK_THAT(align_tires("C1", 15.03, 2.0), Contains("above 12 N/kN") && Contains("is the class right?"));
   CHECK_THAT(align_tires("C1", 2.0, 0.825), Contains("below 3.9 N/kN, 0.6 times the upper bound of label class A"));
   CHECK_THAT(align_tires("C3", 4.0, 0.8), !Contains("is the class right?"));
@@ -341,11 +341,11 @@ TEST_CASE("a line that changes values by more than machines differ is doubted", 
     return flatten(
         run_program("align " + kAlignmentExample + " --reference-machine drum_A --reference " + reference).out);
   };
-  CHECK_THAT(align("1.003 -0.05"), !Contains("change RRC by"));
-  CHECK_THAT(align("0.95 0.6"), !Contains("change RRC by"));
+  CHECK_THAT(align("1.003 -0.05"), !Contains("change RRc by"));
+  CHECK_THAT(align("0.95 0.6"), !Contains("change RRc by"));
   for (const char* absurd : {"1.003 5", "1.9 -4", "2 0", "0.79 2.5"}) {
     INFO(absurd);
-    CHECK_THAT(align(absurd), Contains("change RRC by") && Contains("A1 = "));
+    CHECK_THAT(align(absurd), Contains("change RRc by") && Contains("A1 = "));
   }
 }
 
