@@ -78,7 +78,7 @@ RoadLoadFitOptions complete_options(const CoastdownFile& file, RoadLoadFitOption
   if (!options.recorded_vehicle) return options;
   if (!file.vehicle.has_value()) {
     throw InputError({"the mass is missing: a coastdown alone gives force per mass", "command line", 0, "--mass", "",
-                      "--mass <kg>, the test mass; or --per-mass for A, B and C per unit of effective mass", ""});
+                      "--mass <kg>, the mass as tested; or --per-mass for A, B and C per unit of effective mass", ""});
   }
   options.mass_kg = file.vehicle->mass_kg;
   options.rotating_mass_kg = file.vehicle->rotating_mass_kg;

@@ -157,11 +157,11 @@ void set_mass(const FitRoadLoadOptions& options, RoadLoadFitOptions& to) {
   to.recorded_vehicle = !options.mass_kg.has_value();  // a recording tells it; of any other file it is missing
   if (!options.effective_mass_kg.has_value()) return;
   if (!options.mass_kg.has_value()) {
-    throw usage_error("--effective-mass is given without the test mass", "--effective-mass",
+    throw usage_error("--effective-mass is given without the mass as tested", "--effective-mass",
                       fmt::format("{:.6g}", *options.effective_mass_kg), "--mass <kg> beside it, or none of them");
   }
   if (options.rotating_mass_kg.has_value() || *options.effective_mass_kg < *options.mass_kg) {
-    throw usage_error("--effective-mass is test mass and rotating mass together", "--effective-mass",
+    throw usage_error("--effective-mass is mass as tested and rotating mass together", "--effective-mass",
                       fmt::format("{:.6g}", *options.effective_mass_kg),
                       "at least --mass, and without --rotating-mass");
   }
@@ -256,7 +256,7 @@ int default_road_load_command(const DefaultRoadLoadCommandOptions& options) {
 
 void add_vehicle_options(CLI::App& command, FitRoadLoadOptions& options) {
   const CLI::Validator kMassRange = shown_range(100.0, 1e6);  // Assumed: from a motorcycle to a dump truck
-  command.add_option("--mass", options.mass_kg, "Test mass, kg")->check(kMassRange);
+  command.add_option("--mass", options.mass_kg, "Mass as tested, kg")->check(kMassRange);
   command.add_option("--rotating-mass", options.rotating_mass_kg, "Mass that rotates, kg [3 % of --mass]")
       ->check(shown_range(0.0, 1e6));
   command.add_option("--effective-mass", options.effective_mass_kg, "Both together, kg")->check(kMassRange);
@@ -297,7 +297,8 @@ void add_method_options(CLI::App& command, FitRoadLoadOptions& options) {
   command.add_option("--speed-from", options.speed_from_km_h, "Lowest speed used, km/h [15]")
       ->check(shown_range(0.0, 500.0));
   command.add_option("--speed-to", options.speed_to_km_h, "Highest speed used, km/h")->check(shown_range(1.0, 500.0));
-  command.add_option("--bin-width", options.bin_width_km_h, "Of the bins that a trace is cut into, km/h [5]")
+  command
+      .add_option("--bin-width", options.bin_width_km_h, "Width of the speed bins that a trace is cut into, km/h [5]")
       ->check(shown_range(1.0, 50.0));
   command.add_option("--session", options.sessions, "Sessions used [all]");
   command.add_option("--leave-out", options.leave_out, "Runs that are not used, as 7 or session/7 [none]");
@@ -330,7 +331,7 @@ void add_fit_default_road_load(CLI::App& fit, Action& action) {
   const auto [command, options] = add_command<DefaultRoadLoadCommandOptions>(
       fit, action, "default-road-load", "Default road load of the WLTP, without a measurement",
       &default_road_load_command);
-  command->add_option("--mass", options->load.mass_kg, "Test mass, kg")->required()->check(shown_range(100.0, 1e6));
+  command->add_option("--mass", options->load.mass_kg, "Test mass TM, kg")->required()->check(shown_range(100.0, 1e6));
   command->add_option("--width", options->load.width_m, "Width of the vehicle, m")
       ->required()
       ->check(shown_range(0.5, 5.0));

@@ -117,8 +117,8 @@ TestReport make_road_load_report(const estimation::CoastdownFile& file, const Js
   for (const Json& warning : result["warnings"]) report.warnings.push_back(warning.get<std::string>());
   ReportForm vehicle;
   add_vehicle_blanks(vehicle);
-  vehicle.fields.push_back(values.has("/options/mass_kg") ? values.field("Test mass", "/options/mass_kg", ".1f")
-                                                          : make_blank("Test mass"));
+  vehicle.fields.push_back(values.has("/options/mass_kg") ? values.field("Mass as tested", "/options/mass_kg", ".1f")
+                                                          : make_blank("Mass as tested"));
   vehicle.fields.push_back(values.has("/options/effective_mass_kg")
                                ? values.field("Effective mass", "/options/effective_mass_kg", ".1f")
                                : make_blank("Effective mass"));

@@ -248,7 +248,7 @@ std::vector<Table> make_road_load_tables(const RoadLoadFitOptions& options, cons
   Table masses;
   if (!fit.per_mass) {
     const char* assumed =
-        options.rotating_mass_kg.has_value() ? "" : ", of which 3 % of the test mass rotate (Assumed)";
+        options.rotating_mass_kg.has_value() ? "" : ", of which 3 % of the mass as tested rotate (Assumed)";
     masses.rows.push_back({"effective mass", fmt::format("{:.6g} kg{}", fit.effective_mass_kg, assumed)});
   }
   std::vector<Table> tables{masses};

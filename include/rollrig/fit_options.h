@@ -28,8 +28,8 @@ struct RoadLoadBounds {
 };
 
 struct RoadLoadFitOptions {
-  std::optional<double> mass_kg;            // test mass; absent: forces per unit of effective mass
-  std::optional<double> rotating_mass_kg;   // absent: 3 % of the test mass (SAE J2263: effective mass 1.03 M)
+  std::optional<double> mass_kg;            // as tested; absent: forces per unit of effective mass
+  std::optional<double> rotating_mass_kg;   // absent: 3 % of the mass as tested (SAE J2263: effective mass 1.03 M)
   std::optional<double> drag_area_m2;       // for the wind; absent: all of C is drag
   double reference_temperature_K = 293.15;  // 40 CFR 1066.305
   double reference_pressure_Pa = 98.21e3;   // 40 CFR 1066.305

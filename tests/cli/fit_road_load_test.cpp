@@ -24,7 +24,7 @@ TEST_CASE("fit road-load: table of 80 columns, JSON and residuals", "[fast]") {
   INFO(run.err << run.out);
   REQUIRE(run.status == 0);
   CHECK(longest_line(run.out) <= 80);
-  CHECK_THAT(run.out, Contains("N/(km/h)2") && Contains("not checked") && Contains("3 % of the test mass"));
+  CHECK_THAT(run.out, Contains("N/(km/h)2") && Contains("not checked") && Contains("3 % of the mass as tested"));
   const std::string page = read_file(folder.file("page.html"));
   for (const char* shown :
        {"effective mass", "force, N", "scatter of speed", "drift of coast times", "runs each way"}) {
