@@ -66,7 +66,7 @@ TEST_CASE("64 points of a Sobol' sequence meet each of 64 boxes once, however lo
   const auto design = make_design(with_name(kSobol));
   const std::vector<double> a = list_values(*design, 0);
   const std::vector<double> b = list_values(*design, 1);
-  for (const std::size_t columns : {1, 2, 4, 8, 16, 32, 64}) {
+  for (const std::size_t columns : {1U, 2U, 4U, 8U, 16U, 32U, 64U}) {
     const std::size_t rows = 64 / columns;
     std::set<std::pair<std::size_t, std::size_t>> met;
     for (std::size_t i = 0; i < a.size(); ++i) {

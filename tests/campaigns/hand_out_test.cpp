@@ -10,7 +10,7 @@ using rollrig::campaigns::calc_chunk;
 }  // namespace
 
 TEST_CASE("shares of items are even at first and single at the end", "[fast]") {
-  for (const std::size_t workers : {1, 3, 40}) {
+  for (const std::size_t workers : {1U, 3U, 40U}) {
     std::size_t left = 5000;
     std::size_t before = 64;
     while (left > 0) {

@@ -47,7 +47,7 @@ TEST_CASE("Sobol' indices of the Ishigami function lie in their intervals", "[fa
   const double v13 = 0.01 * std::pow(kPi, 8) * (1.0 / 18.0 - 1.0 / 50.0);
   const double first[] = {v1 / v, v2 / v, 0.0};
   const double total[] = {(v1 + v13) / v, v2 / v, v13 / v};
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const DesignInput input{kSobolIndices, make_factors(-kPi, kPi), 1024, seed};
     const SobolIndices indices = calc_sobol_indices(evaluate(input, ishigami), 3, seed);
     CHECK(indices.points == 1024);

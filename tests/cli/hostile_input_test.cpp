@@ -89,7 +89,7 @@ TEST_CASE("TOML and JSON that are nested too deeply are refused", "[fast]") {
   check_refused(run_program("run keys.toml", folder.path()), "a key with too many parts");
   check_refused(run_program("run iso_28580 --tire a50 --set " + key + "=1", folder.path()), "too many parts");
   fs::create_directory(folder.file("result"));
-  for (const std::size_t levels : {100, 800, 20000, 200000}) {
+  for (const std::size_t levels : {100U, 800U, 20000U, 200000U}) {
     write_file(folder.file("result/result.json"), nested(levels));
     for (const char* format : {"--mat x.mat", "--hdf5 x.h5"}) {
       check_refused(run_program(std::string("export result ") + format, folder.path()), "nested too deeply");

@@ -28,7 +28,7 @@ TEST_CASE("a number that no double holds is told with its line", "[fast]") {
 }
 
 TEST_CASE("JSON that is nested too deeply is refused before a parser follows it", "[fast]") {
-  for (const std::size_t levels : {100, 800, 20000, 1000000}) {
+  for (const std::size_t levels : {100U, 800U, 20000U, 1000000U}) {
     CHECK_THROWS_WITH(parse_text(std::string(levels, '[')), Contains("nested too deeply"));
     CHECK_THROWS_WITH(parse_text(std::string(levels, '[') + std::string(levels, ']')), Contains("nested too deeply"));
   }

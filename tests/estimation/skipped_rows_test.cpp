@@ -290,7 +290,7 @@ TEST_CASE("fields of bins that the fit does not need are left empty, and their r
 
 TEST_CASE("more than 5 % of bad rows are refused, one always passes", "[fast]") {
   RowLines lines = write_bin_lines();
-  for (const std::size_t at : {3, 14}) set_cell(lines[at], 6, "0");
+  for (const std::size_t at : {3U, 14U}) set_cell(lines[at], 6, "0");
   CHECK(read_lines(lines, BadRows::kLeaveOut).left_out.rows == 2);  // of 40
   set_cell(lines[25], 6, "0");
   CHECK_THROWS_WITH(read_lines(lines, BadRows::kLeaveOut), Contains("3 of 40 rows") && Contains("too many"));
@@ -315,7 +315,7 @@ TEST_CASE("bad rows of all files of a drum's coastdowns are in one error, or are
   const CoastSet set = read_coast_set(path, "", BadRows::kLeaveOut);
   const CoastSet others =
       read_coast_set(write_coast_set(other_folder, join_lines(loaded_others), join_lines(lifted_others)));
-  for (const std::size_t run : {0, 1}) {
+  for (const std::size_t run : {0U, 1U}) {
     CHECK(set.runs[run].drum->time_s == others.runs[run].drum->time_s);
     CHECK(set.runs[run].drum->speed_m_s == others.runs[run].drum->speed_m_s);
   }

@@ -89,7 +89,7 @@ TEST_CASE("a merged row has the mean time, the mean inputs and the mean of the s
 TEST_CASE("a merged row begins where it is told to", "[fast]") {
   const MeasuredRun run = make_run();
   const MergedRun merged = measurements::merge_steady_rows(run, *tests::kDrum, {2503, 2507, 3001}, 600.0);
-  for (const std::size_t cut : {2503, 2507, 3001}) CHECK(merged.row_of[cut] == merged.row_of[cut - 1] + 1);
+  for (const std::size_t cut : {2503U, 2507U, 3001U}) CHECK(merged.row_of[cut] == merged.row_of[cut - 1] + 1);
   CHECK(merged.row_of[2504] == merged.row_of[2503]);
 }
 

@@ -169,7 +169,7 @@ TEST_CASE("a file that is cut off anywhere is refused", "[fast]") {
   const TemporaryFolder folder;
   const std::string mat = exports::make_mat(make_tree());
   const std::string hdf5 = exports::make_hdf5(make_tree());
-  for (int part = 1; part < 12; ++part) {
+  for (std::size_t part = 1; part < 12; ++part) {
     const auto cut = [part](const std::string& bytes) { return bytes.substr(0, bytes.size() * part / 12); };
     INFO(part << " of 12 parts");
     rollrig::tests::write_file(folder.file("a.mat"), cut(mat));
