@@ -220,41 +220,64 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
 
 namespace {
 
-/// Exponents of the force over pressure, load and speed; empty where the points do not decide it.
+/// How the force goes with pressure, load and speed; empty where the points do not decide it.
 struct Trends {
-  std::optional<double> alpha, beta, gamma;
-  double alpha_reach = 0.0;  // half the interval of 95 % of alpha
+  std::optional<double> alpha, beta;
+  double alpha_reach = 0.0;      // half the interval of 95 % of alpha
+  std::optional<double> change;  // of the force from the lowest to the highest speed, over that at the lowest
 };
 
+/// Logarithms of one quantity less their mean; nothing where the points have one level of it.
+std::optional<Eigen::VectorXd> center_logarithms(const std::vector<RollingPoint>& points, double RollingPoint::*member) {
+  std::vector<double> values;
+  for (const RollingPoint& point : points) values.push_back(point.*member);
+  if (count_levels(values) < 2) return std::nullopt;
+  const Eigen::VectorXd logarithms =
+      Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size())).log();
+  return logarithms.array() - logarithms.mean();
+}
+
+Eigen::MatrixXd join_columns(const std::vector<Eigen::VectorXd>& columns) {
+  Eigen::MatrixXd joined(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) joined.col(static_cast<Eigen::Index>(i)) = columns[i];
+  return joined;
+}
+
 Trends find_trends(const std::vector<RollingPoint>& points) {
-  Trends trends;
-  std::vector<std::pair<double RollingPoint::*, std::optional<double>*>> varied;
-  for (const auto& [member, exponent] :
-       {std::pair{&RollingPoint::pressure_Pa, &trends.alpha}, std::pair{&RollingPoint::load_N, &trends.beta},
-        std::pair{&RollingPoint::speed_m_s, &trends.gamma}}) {
-    std::vector<double> values;
-    for (const RollingPoint& point : points) values.push_back(point.*member);
-    if (count_levels(values) > 1) varied.emplace_back(member, exponent);
-  }
   const auto rows = static_cast<Eigen::Index>(points.size());
-  const auto columns = static_cast<Eigen::Index>(varied.size()) + 1;
-  Eigen::MatrixXd design = Eigen::MatrixXd::Ones(rows, columns);
+  std::vector<Eigen::VectorXd> terms{Eigen::VectorXd::Ones(rows)};
+  const auto add = [&](const std::optional<Eigen::VectorXd>& term) {
+    if (term.has_value()) terms.push_back(*term);
+    return term.has_value() ? static_cast<Eigen::Index>(terms.size()) - 1 : 0;
+  };
+  const Eigen::Index at_alpha = add(center_logarithms(points, &RollingPoint::pressure_Pa));
+  const Eigen::Index at_beta = add(center_logarithms(points, &RollingPoint::load_N));
+  const std::optional<Eigen::VectorXd> log_speed = center_logarithms(points, &RollingPoint::speed_m_s);
+  const Eigen::Index at_speed = add(log_speed);
+  std::vector<double> speeds_m_s;
+  for (const RollingPoint& point : points) speeds_m_s.push_back(point.speed_m_s);
+  const bool bends = count_levels(speeds_m_s) > 2;
+  if (bends) terms.push_back(log_speed->cwiseAbs2());
+  const Eigen::MatrixXd design = join_columns(terms);
   Eigen::VectorXd log_force(rows);
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    const RollingPoint& point = points[static_cast<std::size_t>(row)];
-    log_force(row) = std::log(point.force_N);
-    for (Eigen::Index i = 1; i < columns; ++i) {
-      design(row, i) = std::log(point.*varied[static_cast<std::size_t>(i) - 1].first);
-    }
-  }
+  for (Eigen::Index i = 0; i < rows; ++i) log_force(i) = std::log(points[static_cast<std::size_t>(i)].force_N);
+  Trends trends;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(design);
-  if (rows <= columns || solver.rank() < columns) return trends;
+  if (rows <= design.cols() || solver.rank() < design.cols()) return trends;
   const Eigen::VectorXd found = solver.solve(log_force);
-  for (Eigen::Index i = 1; i < columns; ++i) *varied[static_cast<std::size_t>(i) - 1].second = found(i);
-  const auto freedom = static_cast<int>(rows - columns);
-  const double variance = (log_force - design * found).squaredNorm() / freedom;
-  const Eigen::MatrixXd inverse = (design.transpose() * design).inverse();
-  if (trends.alpha.has_value()) trends.alpha_reach = calc_student_reach(freedom) * std::sqrt(variance * inverse(1, 1));
+  if (at_alpha > 0) {
+    const auto freedom = static_cast<int>(rows - design.cols());
+    const double variance = (log_force - design * found).squaredNorm() / freedom;
+    const Eigen::MatrixXd inverse = (design.transpose() * design).inverse();
+    trends.alpha = found(at_alpha);
+    trends.alpha_reach = calc_student_reach(freedom) * std::sqrt(variance * inverse(at_alpha, at_alpha));
+  }
+  if (at_beta > 0) trends.beta = found(at_beta);
+  if (at_speed > 0) {
+    const double low = log_speed->minCoeff(), high = log_speed->maxCoeff();
+    const double bend = bends ? found(at_speed + 1) * (high * high - low * low) : 0.0;
+    trends.change = std::exp(found(at_speed) * (high - low) + bend) - 1.0;
+  }
   return trends;
 }
 
@@ -287,17 +310,14 @@ std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points) {
         "between points?",
         beta, beta < kLeastBeta ? "is the parasitic loss not subtracted, which does not depend on load, or " : ""));
   }
-  if (!trends.gamma.has_value()) return doubts;
+  if (trends.change.value_or(0.0) >= -kMostFall) return doubts;
   const auto [slow, fast] = std::minmax_element(points.begin(), points.end(), [](const auto& one, const auto& other) {
     return one.speed_m_s < other.speed_m_s;
   });
-  const double change = std::pow(fast->speed_m_s / slow->speed_m_s, *trends.gamma) - 1.0;
-  if (change < -kMostFall) {
-    doubts.push_back(
-        fmt::format("rolling resistance falls by some {:.0f} % from {:.0f} to {:.0f} km/h: in a coastdown the tire "
-                    "stays warm, and it rises. Are the speeds in the order of the points?",
-                    -1e2 * change, kKmhPerMs * slow->speed_m_s, kKmhPerMs * fast->speed_m_s));
-  }
+  doubts.push_back(
+      fmt::format("rolling resistance falls by some {:.0f} % from {:.0f} to {:.0f} km/h: in a coastdown the tire stays "
+                  "warm, and it rises. Are the speeds in the order of the points?",
+                  -1e2 * *trends.change, kKmhPerMs * slow->speed_m_s, kKmhPerMs * fast->speed_m_s));
   return doubts;
 }
 

@@ -65,7 +65,8 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points);
 
 /// Doubts by how the force goes with pressure, load and speed, whatever law is fitted: columns whose values stand in
 /// the wrong rows, absolute pressures, a parasitic loss that was not subtracted.
-/// Equation  ln F = k + alpha ln P + beta ln Z + gamma ln v, by least squares, of those that have several values
+/// Equation  ln F = k + alpha ln P + beta ln Z + gamma ln v + delta (ln v)^2, by least squares, of those that have
+///           several values, delta of three speeds or more
 /// Assumed: alpha is not above 0.02, that is 0 with noise; its interval of 95 % reaches above -0.55, where tests in the
 /// literature found -0.3 to -0.5 (assets/tires) and 101 kPa more than the gauge pressure make -0.4 of a car's tire to
 /// some -0.57; beta is 0.7 to 2, where tires have 0.8 to 1.5 and a parasitic loss makes that of a car's tire 0.53 to

@@ -384,7 +384,7 @@ TEST_CASE("one tire that does not fit is named, where its error also breaks the 
   }
   RandomStream random(42, "one bad tire");
   AlignmentFile file = make_pair_file(random);
-  for (AlignmentMeasurement& one : file.tires[2].candidate.all) one.rrc_N_per_kN *= 1.35;
+  for (AlignmentMeasurement& one : file.tires[2].candidate.all) one.rrc_N_per_kN *= 1.5;
   std::sort(file.tires.begin(), file.tires.end(), [](const AlignmentTire& a, const AlignmentTire& b) {
     return a.candidate.mean() < b.candidate.mean();
   });

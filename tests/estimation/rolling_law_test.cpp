@@ -224,10 +224,10 @@ TEST_CASE("loads and forces that are both in lbf are doubted aloud", "[fast]") {
 
 TEST_CASE("points that were copied are doubted aloud, a few that agree by chance are not", "[fast]") {
   std::vector<RollingPoint> points = make_points();
-  points[3].force_N = 20.4;  // N, as a coarse display shows it
+  points[3].force_N = std::round(10.0 * points[3].force_N) / 10.0;  // N, as a coarse display shows it
   points.push_back(points[3]);
   CHECK(estimation::doubt_points(points).empty());
-  points[3].force_N = points.back().force_N = 20.4137;  // no two readings agree in six digits
+  points[3].force_N = points.back().force_N += 0.01237;  // no two readings agree in six digits
   REQUIRE(estimation::doubt_points(points).size() == 1);
   CHECK_THAT(estimation::doubt_points(points)[0], Catch::Contains("1 of 25 points"));
   points = make_points();
