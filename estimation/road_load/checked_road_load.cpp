@@ -96,12 +96,12 @@ std::optional<RoadLoadFit> fit_without(const CoastdownData& data, const std::set
 }
 
 /// The runs without which the others have a fit, where the whole has none.
-std::vector<std::size_t> find_culprits(const CoastdownData& data, const RoadLoadFitOptions& options) {
-  std::vector<std::size_t> culprits;
+std::vector<std::size_t> find_disturbing_runs(const CoastdownData& data, const RoadLoadFitOptions& options) {
+  std::vector<std::size_t> disturbing;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    if (fit_without(data, {i}, options).has_value()) culprits.push_back(i);
+    if (fit_without(data, {i}, options).has_value()) disturbing.push_back(i);
   }
-  return culprits;
+  return disturbing;
 }
 
 std::string list_names(const CoastdownData& data, const std::vector<std::size_t>& runs) {
@@ -121,13 +121,13 @@ RoadLoadFit replace_failed(const CoastdownData& data, const RoadLoadFitOptions& 
                                            failure.what(), list_names(data, out)));
     return *others;
   }
-  const std::vector<std::size_t> culprits = find_culprits(data, options);
-  if (culprits.empty()) {
+  const std::vector<std::size_t> disturbing = find_disturbing_runs(data, options);
+  if (disturbing.empty()) {
     if (checked.doubts.empty()) throw;
     throw RunFailure(fmt::format("{}. In doubt: {}", failure.what(), checked.doubts.front().text));
   }
   throw RunFailure(fmt::format("{}. The others have a fit without {}: look at it, or leave it out (--leave-out)",
-                               failure.what(), list_names(data, culprits)));
+                               failure.what(), list_names(data, disturbing)));
 }
 
 void warn_of_signs(RoadLoadFit& fit) {

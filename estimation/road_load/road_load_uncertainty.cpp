@@ -16,7 +16,7 @@ namespace {
 // Half-widths of rectangular distributions; no file says anything of these instruments.
 constexpr double kMassLimit = 0.002;         // Assumed: of the mass, a vehicle scale, driver and load included
 constexpr double kKnownRotatingLimit = 0.1;  // Assumed: of a rotating mass that is given
-constexpr double kRatioLimit = 0.01;         // Assumed: of the test mass, where 3 % of it are taken for what rotates
+constexpr double kRatioLimit = 0.01;         // Assumed: of the mass as tested, where 3 % of it are taken for what rotates
 constexpr double kSpeedGainLimit = 0.002;    // Assumed: satellite navigation or a wheel of known circumference
 constexpr double kAmbientLimit_K = 1.0;      // Assumed: a thermometer at the track
 constexpr double kPressureLimit_Pa = 300.0;  // Assumed: a barometer at the track
@@ -55,12 +55,12 @@ std::vector<UncertainInput> make_road_inputs(const CoastdownData& data, const Ro
                                                            "covariance of A, B and C by the fit");
   const double mass_kg = find_test_mass_kg(options, fit.effective_mass_kg);
   const double rotating_kg = fit.effective_mass_kg - mass_kg;
-  inputs.push_back(make_assumed_input("test mass", "mass_kg", mass_kg, kMassLimit * mass_kg, "0.2 % of the mass"));
+  inputs.push_back(make_assumed_input("mass as tested", "mass_kg", mass_kg, kMassLimit * mass_kg, "0.2 % of the mass"));
   inputs.push_back(options.rotating_mass_kg.has_value()
                        ? make_assumed_input("rotating mass", "rotating_mass_kg", rotating_kg,
                                             kKnownRotatingLimit * rotating_kg, "10 % of it")
                        : make_assumed_input("rotating mass", "rotating_mass_kg", rotating_kg, kRatioLimit * mass_kg,
-                                            "1 % of the test mass, since 3 % of it are taken"));
+                                            "1 % of the mass as tested, since 3 % of it are taken"));
   if (fit.per_mass) {
     for (std::size_t i = road_input::kMass; i <= road_input::kRotating; ++i) {
       inputs[i].standard_uncertainty = 0.0;

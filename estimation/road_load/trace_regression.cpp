@@ -321,7 +321,7 @@ void doubt_vane(const CoastdownData& data, const std::vector<TraceRun>& traces, 
       *offset_rad * kDegPerRad));
 }
 
-/// Warns of yaw angles that are far below what the wind along the road lets expect: rad in place of deg.
+/// Warns of yaw angles that are far below what a wind that along the road makes likely: rad in place of deg.
 void doubt_yaw_unit(const CoastdownData& winds, const std::vector<TraceRun>& traces,
                     std::vector<std::string>& warnings) {
   constexpr double kLeastWind_m_s = 0.5;     // Assumed

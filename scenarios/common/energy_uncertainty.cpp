@@ -104,7 +104,7 @@ MeasurementModel make_section_energy_model(const RunSpec& spec, const Json& sett
   const double mass_kg = spec.vehicle->body.mass_kg;
   model.inputs = {
       make_assumed_input("gain of the energy meter", "gain_percent", 1.0, kMeterGainLimit, "1 %"),
-      make_assumed_input("test mass", "mass_kg", mass_kg, kTestMassLimit * mass_kg, "0.2 % of the mass"),
+      make_assumed_input("mass as tested", "mass_kg", mass_kg, kTestMassLimit * mass_kg, "0.2 % of the mass"),
       make_assumed_input("air temperature", "ambient_degC", setting("ambient_degC"), kTestAmbientLimit_K, "1 degC"),
       make_assumed_input("tire pressure, cold", "pressure_kPa", setting("pressure_kPa"), kTestPressureLimit_Pa,
                          "3 kPa")};

@@ -77,7 +77,7 @@ TEST_CASE("mass, fall with temperature and weather act as in a fit with other nu
   const Fitted base(make_cold_study());
   RoadLoadFitOptions heavier = base.options;
   *heavier.mass_kg += 40.0;
-  check_moved(base, "test mass", 40.0, fit_road_load(base.data, heavier));
+  check_moved(base, "mass as tested", 40.0, fit_road_load(base.data, heavier));
   RoadLoadFitOptions steeper = base.options;
   steeper.rolling_fall_per_K += 3e-3;
   check_moved(base, "fall of A and B with temperature", 3e-3, fit_road_load(base.data, steeper));
