@@ -16,7 +16,7 @@ namespace {
 // Half-widths of rectangular distributions; no file says anything of these instruments.
 constexpr double kMassLimit = 0.002;         // Assumed: of the mass, a vehicle scale, driver and load included
 constexpr double kKnownRotatingLimit = 0.1;  // Assumed: of a rotating mass that is given
-constexpr double kRatioLimit = 0.01;         // Assumed: of the mass as tested, where 3 % of it are taken for what rotates
+constexpr double kRatioLimit = 0.01;  // Assumed: of the mass as tested, where 3 % of it are taken for what rotates
 constexpr double kSpeedGainLimit = 0.002;    // Assumed: satellite navigation or a wheel of known circumference
 constexpr double kAmbientLimit_K = 1.0;      // Assumed: a thermometer at the track
 constexpr double kPressureLimit_Pa = 300.0;  // Assumed: a barometer at the track
