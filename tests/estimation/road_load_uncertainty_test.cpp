@@ -37,6 +37,7 @@ struct Fitted {
     return values;
   }
   std::size_t place(const std::string& name) const {
+    INFO(name);
     std::size_t i = 0;
     while (i < model.inputs.size() && model.inputs[i].name != name) ++i;
     REQUIRE(i < model.inputs.size());
