@@ -346,7 +346,7 @@ void doubt_yaw_unit(const CoastdownData& winds, const std::vector<TraceRun>& tra
 }
 
 /// Throws InputError where a heading has no run, or none that is long enough.
-void require_both_headings(const CoastdownData& data, const std::vector<TraceRun>& traces) {
+void require_traces_of_both_headings(const CoastdownData& data, const std::vector<TraceRun>& traces) {
   for (const int heading : {+1, -1}) {
     const auto is_it = [heading](const auto& run) { return run.heading == heading; };
     if (std::any_of(traces.begin(), traces.end(), is_it)) continue;
@@ -368,7 +368,7 @@ std::vector<TraceRun> keep_pairs(const CoastdownData& data, std::vector<TraceRun
                                  std::vector<std::string>& warnings) {
   constexpr std::size_t kFewest = 3;
   constexpr std::size_t kWanted = 5;
-  require_both_headings(data, traces);
+  require_traces_of_both_headings(data, traces);
   std::vector<const TraceRun*> ways[2];
   for (const TraceRun& trace : traces) {
     if (trace.heading != 0) ways[trace.heading > 0 ? 0 : 1].push_back(&trace);
