@@ -108,7 +108,7 @@ struct LineOutlier {
   double p_value = 1.0;      // as of the point
 };
 /// The point of the largest studentized residual, if its p is below 0.005 and it lies farther from the line of the
-/// other points than `least_miss`. Four points at least, of which three do not need it for a line.
+/// other points than `least_miss`. Needs four points: the other three show a scatter about their line.
 /// Equation  y - e/(1 - h): the line of the other points at x, e residual and h leverage of the point
 /// Assumed: 0.005, so that of 200 sets without a mistake one has such a point by chance
 /// Checked   tests/estimation/alignment_test.cpp

@@ -126,8 +126,13 @@ RoadLoadFit replace_failed(const CoastdownData& data, const RoadLoadFitOptions& 
     if (checked.doubts.empty()) throw;
     throw RunFailure(fmt::format("{}. In doubt: {}", failure.what(), checked.doubts.front().text));
   }
-  throw RunFailure(fmt::format("{}. The others have a fit without {}: look at it, or leave it out (--leave-out)",
-                               failure.what(), list_names(data, disturbing)));
+  if (2 * disturbing.size() > data.runs.size()) {
+    throw RunFailure(
+        fmt::format("{}. Without any one of most runs there is a fit: no single run is the cause", failure.what()));
+  }
+  throw RunFailure(fmt::format("{}. There is a fit without {}: look at {}, or leave {} out (--leave-out)", failure.what(),
+                               list_names(data, disturbing), disturbing.size() == 1 ? "it" : "them",
+                               disturbing.size() == 1 ? "it" : "one of them"));
 }
 
 void warn_of_signs(RoadLoadFit& fit) {
@@ -157,7 +162,7 @@ void doubt_records(const CoastdownData& data, const RoadLoadFitOptions& options,
   const double drag = given_drag(options).value_or(fit.as_tested.C_N_s2_per_m2);
   for (auto& doubts : {doubt_winds(list_winds_by_force(data, runs, drag), "the headings show a wind of", "wind_m_s"),
                        doubt_slopes(list_slopes_by_force(data, runs, mass_kg, false)),
-                       doubt_session_units(data, runs)}) {
+                       doubt_session_units(data, runs, force_of_coastdowns(data))}) {
     fit.warnings.insert(fit.warnings.end(), doubts.begin(), doubts.end());
   }
 }

@@ -62,6 +62,7 @@ void group_runs(const CoastdownData& data, CoastdownProblem& problem) {
   for (std::size_t i = 0; i < problem.runs.size(); ++i) sessions[data.runs[problem.runs[i].index].session].push_back(i);
   problem.has_several_sessions = sessions.size() > 1;
   for (const auto& [session, runs] : sessions) {
+    problem.has_repeats = problem.has_repeats || (problem.has_several_sessions && runs.size() > 1);
     if (problem.has_several_sessions) {
       problem.groups.push_back(runs);
     } else {
@@ -145,8 +146,7 @@ LinearBlock linearize(const CoastdownProblem& problem, const FitRun& run, const 
     const double measured = impulse / durations[static_cast<std::size_t>(k)] * (1.0 - std::min(relative_variance, 0.5));
     block.y(k) = measured - force + block.X.row(k).dot(coefficients);
   }
-  // of the session's component, nothing: the only session, or a run alone in its session, whose component of the same
-  // shape is that of the run
+  // the session's component is shared by runs: linearize_all() puts it there
   block.patterns = {passing, make_gust_pattern(run, durations), MatrixXd::Ones(n, n), speed * speed.transpose(),
                     MatrixXd::Zero(n, n)};
   return block;
@@ -210,9 +210,10 @@ std::vector<LinearBlock> linearize_all(const CoastdownProblem& problem, const Ve
       shape.conservativeResize(shape.size() + of_run.size());
       shape.tail(of_run.size()) = of_run;
     }
-    const bool is_session = parts.size() > 1 || problem.session_shape == SessionShape::kProportional;
+    // with one run in each session, a constant force of sessions is that of runs
+    const bool has_scatter = problem.has_repeats || problem.session_shape == SessionShape::kProportional;
     blocks.push_back(join_blocks(parts));
-    if (is_session) blocks.back().patterns[kSession] = shape * shape.transpose();
+    if (has_scatter) blocks.back().patterns[kSession] = shape * shape.transpose();
   }
   return blocks;
 }

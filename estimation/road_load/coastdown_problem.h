@@ -26,6 +26,7 @@ struct CoastdownProblem {
   std::vector<std::string> wind_sessions;
   std::vector<std::vector<std::size_t>> groups;  // runs that share scatter: those of a session, if there are several
   bool has_several_sessions = false;
+  bool has_repeats = false;  // several sessions, one of which has two runs or more
   SessionShape session_shape = SessionShape::kConstant;
 };
 

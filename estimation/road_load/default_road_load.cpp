@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"

@@ -1,9 +1,11 @@
 #include "estimation/road_load/reference_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace rollrig::estimation {
@@ -23,10 +25,6 @@ Speeds list_common_speeds(const Speeds& a, const Speeds& b) {
   return common;
 }
 
-std::size_t count_unshared_speeds(const Speeds& a, const Speeds& b) {
-  return a.size() + b.size() - 2 * list_common_speeds(a, b).size();
-}
-
 bool go_together(const Speeds& a, const Speeds& b) {
   return 3 * list_common_speeds(a, b).size() > 2 * std::min(a.size(), b.size());
 }
@@ -39,39 +37,68 @@ std::vector<std::string> name_sessions(const std::vector<ReferenceRun>& runs) {
   return sessions;
 }
 
-/// Of the free runs that go with a run, the first of those with the fewest other speeds; the end where none goes.
-std::vector<std::size_t>::iterator find_partner(const std::vector<ReferenceRun>& runs, std::size_t run,
-                                                std::vector<std::size_t>& free) {
-  const Speeds speeds = list_speeds(runs[run]);
-  auto partner = free.end();
-  std::size_t fewest = std::numeric_limits<std::size_t>::max();
-  for (auto other = free.begin(); other != free.end(); ++other) {
-    const Speeds others = list_speeds(runs[*other]);
-    const std::size_t unshared = count_unshared_speeds(speeds, others);
-    if (!go_together(speeds, others) || unshared >= fewest) continue;
-    partner = other;
-    fewest = unshared;
+/// Runs of one heading, and the place of each in the order of the session.
+struct WayRuns {
+  std::vector<std::size_t> runs;
+  std::vector<double> places;
+};
+
+/// Pairs of places in both lists, rising in both: as many as possible of runs that go together, and partners as near in
+/// the order of the session as possible.
+std::vector<std::pair<std::size_t, std::size_t>> match_in_order(const std::vector<ReferenceRun>& runs,
+                                                                const WayRuns& plus, const WayRuns& minus) {
+  constexpr double kAlone = 1e6;  // of a run without a partner: more than any distance in the order
+  const std::size_t n = plus.runs.size(), m = minus.runs.size();
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    return go_together(list_speeds(runs[plus.runs[i]]), list_speeds(runs[minus.runs[j]]))
+               ? std::abs(plus.places[i] - minus.places[j])
+               : std::numeric_limits<double>::infinity();
+  };
+  // least cost of the runs from (i, j) on
+  std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 0.0));
+  for (std::size_t i = n + 1; i-- > 0;) {
+    for (std::size_t j = m + 1; j-- > 0;) {
+      if (i == n && j == m) continue;
+      const double skip_plus = i < n ? kAlone + cost[i + 1][j] : std::numeric_limits<double>::infinity();
+      const double skip_minus = j < m ? kAlone + cost[i][j + 1] : std::numeric_limits<double>::infinity();
+      cost[i][j] = std::min(skip_plus, skip_minus);
+      if (i < n && j < m) cost[i][j] = std::min(cost[i][j], distance(i, j) + cost[i + 1][j + 1]);
+    }
   }
-  return partner;
+  std::vector<std::pair<std::size_t, std::size_t>> matches;
+  for (std::size_t i = 0, j = 0; i < n && j < m;) {
+    if (cost[i][j] == distance(i, j) + cost[i + 1][j + 1]) {
+      matches.emplace_back(i++, j++);
+    } else if (cost[i][j] == kAlone + cost[i + 1][j]) {
+      ++i;
+    } else {
+      ++j;
+    }
+  }
+  return matches;
 }
 
 void pair_session(const std::vector<ReferenceRun>& runs, const std::string& session, PairedRuns& paired) {
-  std::vector<std::size_t> plus, minus;
+  std::vector<std::size_t> in_order;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].session != session || runs[i].heading == 0 || runs[i].values.empty()) continue;
-    (runs[i].heading > 0 ? plus : minus).push_back(i);
+    if (runs[i].session == session && runs[i].heading != 0 && !runs[i].values.empty()) in_order.push_back(i);
   }
-  for (const std::size_t run : plus) {
-    const auto partner = find_partner(runs, run, minus);
-    if (partner == minus.end()) {
-      paired.alone.push_back(run);
-      continue;
-    }
-    const Speeds common = list_common_speeds(list_speeds(runs[run]), list_speeds(runs[*partner]));
-    paired.pairs.push_back({run, *partner, common, 0, ""});
-    minus.erase(partner);
+  std::stable_sort(in_order.begin(), in_order.end(),
+                   [&runs](std::size_t a, std::size_t b) { return runs[a].position < runs[b].position; });
+  WayRuns plus, minus;
+  for (std::size_t place = 0; place < in_order.size(); ++place) {
+    WayRuns& way = runs[in_order[place]].heading > 0 ? plus : minus;
+    way.runs.push_back(in_order[place]);
+    way.places.push_back(static_cast<double>(place));
   }
-  paired.alone.insert(paired.alone.end(), minus.begin(), minus.end());
+  std::set<std::size_t> paired_runs;
+  for (const auto& [i, j] : match_in_order(runs, plus, minus)) {
+    const std::size_t a = plus.runs[i], b = minus.runs[j];
+    paired.pairs.push_back({a, b, list_common_speeds(list_speeds(runs[a]), list_speeds(runs[b])), 0, ""});
+    paired_runs.insert({a, b});
+  }
+  std::copy_if(in_order.begin(), in_order.end(), std::back_inserter(paired.alone),
+               [&](std::size_t run) { return paired_runs.count(run) == 0; });
 }
 
 /// Numbers the parts from that of the highest speeds on. The first pair of a part stands for it, so that pairs of whole

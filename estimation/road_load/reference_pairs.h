@@ -14,16 +14,18 @@ struct ReferenceRun {
   std::string name;
   std::string session;
   int heading = 0;
-  std::map<int, double> values;  // by the number of the reference speed: a time, or a torque
+  std::map<int, double> values;  // by the reference speed in km/h: a time, or a torque
+  double position = 0.0;         // orders the runs of a session; of equals, the first in the file comes first
 };
 
 /// Two runs of opposite headings in a session.
 struct ReferencePair {
   std::size_t plus = 0;  // runs
   std::size_t minus = 0;
-  std::vector<int> speeds;  // numbers of the reference speeds that both runs have, falling
+  std::vector<int> speeds;  // reference speeds in km/h that both runs have, falling
   int part = 0;             // of split runs: 0 has the highest speeds
   std::string rejected;     // why; empty where it counts
+  bool is_windy = false;    // whether that is the wind
 
   bool has(int speed) const;
 };
@@ -33,9 +35,10 @@ struct PairedRuns {
   std::vector<std::size_t> alone;    // runs without a partner
 };
 
-/// Pairs the runs: session by session and in their order, each run of one heading with the free run of the other one
-/// that goes with it and has most nearly the same reference speeds, the first of equals. Runs without a heading or
-/// without a reference speed are not looked at.
+/// Pairs the runs, session by session: in their order, no pair across another one, as many as possible, and partners as
+/// near in the order as possible. So runs in turn are paired with their neighbors, also where one is missing, and the
+/// n-th of one heading with the n-th of the other where one heading was driven after the other. Runs without a heading
+/// or without a reference speed are not looked at.
 ///
 /// Two runs go together if more than two thirds of the reference speeds of the one that has fewer are in both: the ends
 /// of runs scatter, and a run may begin late, but the parts of a split test have little in common. The pairs fall into

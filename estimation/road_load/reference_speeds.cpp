@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/QR>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "estimation/road_load/reference_choice.h"
@@ -30,6 +32,28 @@ void require_both_headings(const std::vector<ReferenceRun>& runs) {
   throw pairing_error(ways[0] + ways[1] == 0 ? "the headings of the runs are not known"
                                              : "all runs have the same heading: the procedure pairs opposite ones",
                       "a column heading with + and -, and runs of both");
+}
+
+/// Chance that groups of one mean differ as much: analysis of variance, one way. 1 where nothing tells.
+double find_chance_of_groups(const std::map<std::string, std::vector<double>>& groups) {
+  double n = 0.0, sum = 0.0, within = 0.0, between = 0.0;
+  const auto mean_of = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  };
+  for (const auto& [name, values] : groups) {
+    n += static_cast<double>(values.size());
+    sum += mean_of(values) * static_cast<double>(values.size());
+    for (const double value : values) within += std::pow(value - mean_of(values), 2);
+  }
+  for (const auto& [name, values] : groups) {
+    between += static_cast<double>(values.size()) * std::pow(mean_of(values) - sum / n, 2);
+  }
+  const double between_freedom = static_cast<double>(groups.size()) - 1.0;
+  const double within_freedom = n - static_cast<double>(groups.size());
+  if (between_freedom < 1.0 || within_freedom < 1.0 || !(within > 0.0)) return 1.0;
+  const boost::math::fisher_f distribution(between_freedom, within_freedom);
+  const double F = between / between_freedom / (within / within_freedom);
+  return boost::math::cdf(boost::math::complement(distribution, F));
 }
 
 /// The pairs, and what they say of each speed.
@@ -56,6 +80,22 @@ class PairTable {
     for (const ReferencePair* pair : list(speed)) values.push_back(value(*pair, speed));
     return values;
   }
+  const std::string& session_of(const ReferencePair& pair) const { return runs_[pair.plus].session; }
+
+  /// Whether the pairs, but those with too much wind, differ from session to session more than within them: analysis of
+  /// variance of their mean relative deviations, p < 0.01.
+  bool sessions_differ() const {
+    constexpr double kUnlikely = 0.01;
+    std::map<std::string, std::vector<double>> sessions;
+    for (const ReferencePair& pair : pairs_) {
+      if (pair.is_windy) continue;
+      double sum = 0.0;
+      for (const int speed : pair.speeds) sum += resistance(pair, speed) / mean_resistance(list(speed), speed) - 1.0;
+      sessions[session_of(pair)].push_back(sum / static_cast<double>(pair.speeds.size()));
+    }
+    return find_chance_of_groups(sessions) < kUnlikely;
+  }
+
   double mean_resistance(const std::vector<const ReferencePair*>& pairs, int speed) const {
     double sum = 0.0;
     for (const ReferencePair* pair : pairs) sum += resistance(*pair, speed);
@@ -147,11 +187,19 @@ void fit_coefficients(const PairTable& table, const std::map<int, double>& speed
     }
   }
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  std::map<std::string, Eigen::Vector3d> of_sessions;
   for (const auto& [pair, part] : of_pairs) {
     result.covariance += part.deviation * part.deviation.transpose();
     squares += part.share.array().square().matrix();
+    of_sessions.try_emplace(table.session_of(*pair), Eigen::Vector3d::Zero()).first->second += part.deviation;
   }
   result.freedom = variance.array().square() / squares.array();
+  if (of_sessions.size() < 2 || !table.sessions_differ()) return;
+  const auto pairs = static_cast<double>(of_pairs.size()), sessions = static_cast<double>(of_sessions.size());
+  const double factor = (pairs - 1.0) / pairs * sessions / (sessions - 1.0);
+  for (const auto& [session, sum] : of_sessions) result.covariance += factor * sum * sum.transpose();
+  result.freedom.setConstant(sessions - 1.0);
+  result.has_session_scatter = true;
 }
 
 /// Pairs with a run whose wind is above the limits.
@@ -160,7 +208,9 @@ void reject_windy(const std::vector<ReferenceRun>& runs, const std::vector<std::
   for (ReferencePair& pair : pairs) {
     for (const std::size_t run : {pair.plus, pair.minus}) {
       const auto found = std::find(windy.begin(), windy.end(), runs[run].name);
-      if (found != windy.end()) pair.rejected = fmt::format("wind of run {}", runs[run].name);
+      if (found == windy.end()) continue;
+      pair.rejected = fmt::format("wind of run {}", runs[run].name);
+      pair.is_windy = true;
     }
   }
 }

@@ -30,15 +30,16 @@ struct PairRule {
 };
 
 struct ReferenceResult {
-  std::vector<int> speeds;  // numbers of the reference speeds, falling
+  std::vector<int> speeds;                     // reference speeds in km/h, falling
   std::vector<ReferencePair> pairs;            // with the speeds that are used
   std::vector<ReferencePrecision> precisions;  // by speed
   std::vector<double> resistances;             // by speed
-  std::vector<int> overlaps;                   // numbers of the speeds that parts of split runs share
+  std::vector<int> overlaps;                   // speeds in km/h that parts of split runs share
   std::vector<double> overlap_differences;     // of the resistances there, lower part less upper part
   Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Eigen::Vector3d freedom = Eigen::Vector3d::Zero();
+  bool has_session_scatter = false;  // whether the covariance has a part of sessions, since they differ
   std::vector<std::string> warnings;
 
   /// Runs of the pairs that are not rejected, rising.
@@ -64,9 +65,14 @@ ReferencePrecision calc_precision(const std::vector<double>& values);
 /// of all is rejected.
 /// Equation  F_j mean over the n_j pairs with speed j;  f = sum_j H_j F_j,  H = (X'X)^-1 X',  X = [1 v v^2]
 ///           covariance sum_i e_i e_i',  e_i = sum_j H_j (F_ij - F_j)/sqrt(n_j (n_j - 1)) over the speeds of pair i
-/// Symbols   F_ij resistance of pair i at speed j. Of pairs with all speeds, this is the covariance of their mean
+///           where sessions differ (one-way analysis of variance of the pairs, p < 0.01)
+///           + (n - 1)/n k/(k - 1) sum_s E_s E_s',  E_s sum of e_i over the pairs of session s;
+///           k - 1 degrees of freedom
+/// Symbols   n pairs, k sessions; F_ij resistance of pair i at speed j. Of pairs with all speeds, the first sum is the
+///           covariance of their mean, and the second one is that of the mean of their sessions
 /// Validity  pairs independent of each other; freedom by Welch and Satterthwaite, with the shares of the pairs in the
-///           variance as if all resistances scattered alike
+///           variance as if all resistances scattered alike. The covariance of speeds that share few pairs comes out
+///           small, by a third where they share one of three
 /// Errors    InputError: one heading alone, fewer than three pairs or fewer than four speeds
 /// Source    UN GTR 15 Annex 4, 4.3.1.3 and 4.3.1.4; Welch, Biometrika 34 (1947) 28
 /// Checked   tests/estimation/reference_speeds_test.cpp, tests/estimation/wltp_coverage_test.cpp

@@ -115,7 +115,8 @@ void RoadForceReference::solve(const std::vector<Point>& points) {
     coefficients_ = with_priors.completeOrthogonalDecomposition().solve(wanted);
     const Eigen::VectorXd fitted = X * coefficients_;
     // a reference force near zero would make one bin count for all
-    scale = fitted.cwiseMax(kLeastShare * fitted.mean());
+    least_scale_N_ = kLeastShare * fitted.mean();
+    scale = fitted.cwiseMax(least_scale_N_);
     const Eigen::VectorXd residual = (y - fitted).cwiseQuotient(scale);
     sd = std::max(kLeastSd, 1.4826 * calc_median(to_sizes(residual)));
     weights =
@@ -129,9 +130,8 @@ RunDeviation RoadForceReference::deviation_of(const FitRun& run, std::size_t pla
   deviation.group = static_cast<std::size_t>(sessions_.at(data_.runs[run.index].session));
   for (const Point& point : list_points(run)) {
     const double reference_N = point.factors.dot(coefficients_);
-    if (reference_N <= 0.0) continue;
     deviation.speed_m_s.push_back(point.speed_m_s);
-    deviation.relative.push_back(point.force_N / reference_N - 1.0);
+    deviation.relative.push_back((point.force_N - reference_N) / std::max(reference_N, least_scale_N_));
   }
   return deviation;
 }

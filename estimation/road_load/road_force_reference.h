@@ -13,7 +13,7 @@
 namespace rollrig::estimation {
 
 /// A road load through mean forces over bins that a few odd runs do not move.
-/// Equation  f = k (A + D_s + (B + E_s) v) + q (C + F_s) u|u| + offset + h (d_0 + d_1s v), Tukey's weights on the
+/// Equation  f = k (A + D_s + (B + E_s) v) + q (C + F_s) u|u| + offset(v) + h (d_0 + d_1s v), Tukey's weights on the
 ///           relative residuals (c = 4.685 robust standard deviations), Huber's (c = 1.345) first
 /// Symbols   f m dv/dt of a bin, at its middle speed v; u = v + h w; d_1s, D_s, E_s, F_s one for each session, the
 ///           last three where there are several; others as in fit_road_load()
@@ -29,7 +29,8 @@ class RoadForceReference {
   RoadForceReference(const CoastdownData& data, const std::vector<FitRun>& runs, const std::vector<bool>& used,
                      double mass_kg);
 
-  /// Force of the run over that of the reference, less 1, bin by bin. `place` is its place among the runs.
+  /// Force of the run less that of the reference, over the latter, or over a fifth of its mean if that is larger, for
+  /// each bin. `place` is its place among the runs.
   RunDeviation deviation_of(const FitRun& run, std::size_t place) const;
 
  private:
@@ -46,6 +47,7 @@ class RoadForceReference {
   double mass_kg_;
   std::map<std::string, Eigen::Index> sessions_;
   Eigen::VectorXd coefficients_;
+  double least_scale_N_ = 0.0;  // deviations are relative to the reference, or to this if it is larger
 };
 
 }  // namespace rollrig::estimation

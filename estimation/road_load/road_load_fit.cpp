@@ -129,6 +129,7 @@ void put_headings(const CoastdownProblem& problem, const RoadLoadFitOptions& opt
   for (const int heading : {+1, -1}) {
     CoastdownProblem part{{}, CoastdownModel(problem.model.mass_kg(), false, 3, given_drag(options)), {}, {}};
     part.session_shape = problem.session_shape;
+    part.has_repeats = problem.has_repeats;
     for (const std::vector<std::size_t>& group : problem.groups) {
       std::vector<std::size_t> of_heading;
       for (const std::size_t i : group) {
@@ -243,6 +244,21 @@ void doubt_fitted_winds(RoadLoadFit& fit) {
   }
 }
 
+/// Of such a session, nothing tells its own wind from its force, and a slope only what the other sessions show.
+void warn_of_one_heading(const CoastdownProblem& problem, const CoastdownData& data, RoadLoadFit& fit) {
+  if (problem.model.count() == 3 || !problem.has_several_sessions) return;
+  std::vector<std::string> one_way;
+  for (const FitRun& run : problem.runs) {
+    const std::string name = "'" + data.runs[run.index].session + "'";
+    const bool is_said = std::find(one_way.begin(), one_way.end(), name) != one_way.end();
+    if (run.wind_column < 0 && !is_said) one_way.push_back(name);
+  }
+  if (one_way.empty()) return;
+  fit.warnings.push_back(
+      fmt::format("one heading only in {} {}: a wind there is inside its force, and so in A, B and C",
+                  one_way.size() == 1 ? "session" : "sessions", fmt::join(one_way, ", ")));
+}
+
 void warn(const CoastdownProblem& problem, const CoastdownData& data, const RoadLoadFitOptions& options,
           RoadLoadFit& fit) {
   const std::size_t left_out = data.runs.size() - problem.runs.size();
@@ -268,10 +284,12 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
         "too few runs to tell how they differ from run to run: the standard deviations are those of the noise along a "
         "run, and too small");
   }
-  const SessionWinds winds = fit.winds.empty() ? SessionWinds::kInDeviations : SessionWinds::kFitted;
+  const SessionWinds winds =
+      problem.wind_sessions.empty() ? SessionWinds::kInDeviations : SessionWinds::kFitted;
   if (const auto doubt = doubt_session_difference(data, find_run_deviations(fit), winds)) {
     fit.warnings.push_back(*doubt);
   }
+  warn_of_one_heading(problem, data, fit);
   doubt_fitted_winds(fit);
   doubt_drag_area(options, fit);
   if (!options.mass_kg.has_value()) {
@@ -327,8 +345,12 @@ RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& o
   CoastdownProblem problem = make_problem(data, options, fit.effective_mass_kg);
   require_enough(problem, options);
   const IteratedFit iterated = fit_with_likely_shape(options, problem);
-  const auto& [linear, unbounded, coefficients, components, iterations] = iterated;
+  const auto& [linear, unbounded, coefficients, components, iterations, settled] = iterated;
   fit.iterations = iterations;
+  if (!settled) {
+    fit.warnings.push_back(
+        "the scatter between runs or sessions did not settle: the standard deviations and intervals are uncertain");
+  }
   static_cast<RoadLoadEstimate&>(fit) = to_estimate(linear);
   put_bounds(options, iterated, fit);
   fit.chi2_per_dof = linear.chi2 / static_cast<double>(static_cast<Index>(count_bins(problem)) - problem.model.count());

@@ -22,6 +22,17 @@ VectorXd make_floors() {
   return floors;
 }
 
+/// Whether no component would move by more than a tenth of itself; a billionth of the largest one counts as none.
+bool stays(const VectorXd& components, const VectorXd& wanted) {
+  constexpr double kMostChange = 0.1, kNone = 1e-9;
+  const double none = kNone * components.maxCoeff();
+  for (Index i = 0; i < components.size(); ++i) {
+    const double larger = std::max(components(i), wanted(i));
+    if (larger > none && std::abs(wanted(i) - components(i)) > kMostChange * larger) return false;
+  }
+  return true;
+}
+
 /// Moves towards `wanted`, less far where the force would not stay positive.
 double step_to(const CoastdownProblem& problem, const VectorXd& wanted, VectorXd& coefficients) {
   double share = 1.0;
@@ -76,7 +87,10 @@ IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::option
     } else if (iterations <= kMostIterations / 2) {
       components = 0.5 * (components + estimate.components);
     }
-    if (settled) return {estimate, unbounded, coefficients, components, iterations};
+    if (settled) {
+      const bool components_settled = !held || stays(components, estimate.components);
+      return {estimate, unbounded, coefficients, components, iterations, components_settled};
+    }
   }
   throw RunFailure(fmt::format("the fit of the road load does not converge within {} iterations", kMostIterations));
 }

@@ -1,6 +1,7 @@
 #include "estimation/road_load/road_load_procedure.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -11,7 +12,6 @@
 
 #include "estimation/road_load/recorded_wind.h"
 #include "estimation/road_load/road_load_doubts.h"
-#include "estimation/road_load/session_differences.h"
 #include "sim/core/units.h"
 
 namespace rollrig::estimation {
@@ -114,6 +114,20 @@ std::optional<double> mean_of_condition(const CoastdownData& data, std::vector<d
   }
   if (count == 0) return std::nullopt;
   return sum / static_cast<double>(count);
+}
+
+std::vector<double> find_positions(const CoastdownData& data) {
+  std::vector<double> starts_s, numbers, places;
+  for (const CoastdownRun& run : data.runs) {
+    double number = 0.0;
+    const char* end = run.id.data() + run.id.size();
+    const auto read = std::from_chars(run.id.data(), end, number);
+    if (read.ec == std::errc() && read.ptr == end) numbers.push_back(number);
+    if (run.start_s.has_value()) starts_s.push_back(*run.start_s);
+    places.push_back(static_cast<double>(places.size()));
+  }
+  if (starts_s.size() == data.runs.size()) return starts_s;
+  return numbers.size() == data.runs.size() ? numbers : places;
 }
 
 std::string name_of_run(const CoastdownRun& run, const CoastdownData& data) {
@@ -305,7 +319,8 @@ void doubt_recorded_conditions(const CoastdownData& data, const std::string& col
   if (has_slopes) add(doubt_slopes(list_slopes_by_force(data, runs, procedure.correction.mass_kg, true)));
 }
 
-void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, RoadLoadProcedure& procedure) {
+void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, const MeasuredForce& force,
+                    RoadLoadProcedure& procedure) {
   const std::vector<RunResistance> runs = list_resistances(data, without, procedure);
   std::map<std::size_t, double> deviations;
   for (const RunResistance& run : runs) {
@@ -314,7 +329,7 @@ void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& w
   if (auto doubt = doubt_session_difference(data, deviations, SessionWinds::kInDeviations)) {
     procedure.warnings.push_back(std::move(*doubt));
   }
-  for (std::string& doubt : doubt_session_units(data, runs)) procedure.warnings.push_back(std::move(doubt));
+  for (std::string& doubt : doubt_session_units(data, runs, force)) procedure.warnings.push_back(std::move(doubt));
 }
 
 AirFlow calc_air_flow(double speed_m_s, double against_m_s, double across_m_s) {

@@ -12,6 +12,7 @@
 #include "estimation/road_load/reference_conditions.h"
 #include "estimation/road_load/reference_speeds.h"
 #include "estimation/road_load/road_load_checks.h"
+#include "estimation/road_load/session_differences.h"
 #include "estimation/run_checks/run_doubt.h"
 #include "include/rollrig/road_load_options.h"
 
@@ -115,7 +116,8 @@ void doubt_recorded_conditions(const CoastdownData& data, const std::string& col
 
 /// Warns where sessions differ (doubt_session_difference(), doubt_session_units()). The points of the runs in `without`,
 /// by name, do not count.
-void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, RoadLoadProcedure& procedure);
+void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, const MeasuredForce& force,
+                    RoadLoadProcedure& procedure);
 
 /// Corrects `reference.coefficients` to the conditions of reference, with what `tested` says of force and mass, and
 /// puts both there. The contributions of the sensors are there unless the options leave them out.
@@ -130,6 +132,10 @@ void check_reference_precision(RoadLoadProcedure& procedure);
 /// Warns of what doubt_road_load() finds, and of coefficients below 0.
 /// Errors  InputError: a rolling loss that no vehicle has
 void doubt_units(RoadLoadProcedure& procedure);
+
+/// What orders the runs, one number each: their start where all runs have one, else the number that each is named by,
+/// else their place in the file.
+std::vector<double> find_positions(const CoastdownData& data);
 
 /// As a run is named in messages.
 std::string name_of_run(const CoastdownRun& run, const CoastdownData& data);

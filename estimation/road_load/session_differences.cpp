@@ -81,7 +81,8 @@ Scatter find_scatter_within(const std::map<std::string, HeadingGroups>& sessions
   return scatter;
 }
 
-/// Of single runs, one for each session and heading, about what their session and their heading make of them.
+/// Of the means of session and heading about what their session and their heading make of them: that of single runs, or
+/// less.
 Scatter find_scatter_of_pairs(const std::map<std::string, HeadingGroups>& sessions) {
   const std::vector<SessionMean> means = list_session_means(sessions);
   std::map<int, double> heading_means;
@@ -89,13 +90,13 @@ Scatter find_scatter_of_pairs(const std::map<std::string, HeadingGroups>& sessio
   for (const SessionMean& session : means) mean += session.value / static_cast<double>(means.size());
   for (const auto& [name, headings] : sessions) {
     for (const auto& [heading, values] : headings) {
-      heading_means[heading] += values.front() / static_cast<double>(sessions.size());
+      heading_means[heading] += calc_mean(values) / static_cast<double>(sessions.size());
     }
   }
   Scatter scatter;
   for (const SessionMean& session : means) {
     for (const auto& [heading, values] : sessions.at(session.name)) {
-      const double rest = values.front() - session.value - heading_means.at(heading) + mean;
+      const double rest = calc_mean(values) - session.value - heading_means.at(heading) + mean;
       scatter.squares += rest * rest;
     }
   }
@@ -114,6 +115,10 @@ void put_farthest(const std::vector<SessionMean>& means, SessionDifference& diff
     difference.farthest = mean.name;
     difference.relative = relative;
   }
+  if (means.size() != 2) return;  // else both are equally far: the later one, against the first
+  difference.farthest = means[1].name;
+  difference.other = means[0].name;
+  difference.relative = means[1].value - means[0].value;
 }
 
 /// A parabola over speed and a part that the headings have with opposite signs.
@@ -126,17 +131,21 @@ class ForceCurve {
     points_.push_back({speed_m_s, force_N, static_cast<double>(heading)});
   }
 
-  /// By least squares of the relative deviations; false where the points are too few.
+  /// By least squares of the relative deviations; false where the points do not decide it.
   bool fit() {
     constexpr std::size_t kFewest = 5;
     if (points_.size() < kFewest) return false;
+    const double heading = points_.front()[2];
+    const bool has_both = std::any_of(points_.begin(), points_.end(), [&](const auto& at) { return at[2] != heading; });
     Eigen::MatrixXd X(points_.size(), 4);
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      const auto& [speed_m_s, force_N, heading] = points_[i];
-      X.row(static_cast<Eigen::Index>(i)) << 1.0, speed_m_s, speed_m_s * speed_m_s, heading;
+      const auto& [speed_m_s, force_N, way] = points_[i];
+      X.row(static_cast<Eigen::Index>(i)) << 1.0, speed_m_s, speed_m_s * speed_m_s, way;
       X.row(static_cast<Eigen::Index>(i)) /= force_N;
     }
-    load_ = X.completeOrthogonalDecomposition().solve(Eigen::VectorXd::Ones(X.rows())).head(3);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> parts(has_both ? X : X.leftCols(3));
+    if (parts.rank() < parts.cols()) return false;
+    load_ = parts.solve(Eigen::VectorXd::Ones(X.rows())).head(3);
     return true;
   }
 
@@ -152,8 +161,8 @@ class ForceCurve {
 };
 
 /// Root of the mean square of the relative difference of two curves, where the speeds of the first are `factor` times
-/// those that it has; infinite where they have too few speeds in common.
-double calc_difference(const ForceCurve& session, const ForceCurve& others, double factor) {
+/// those that it has, and its forces `force_factor` times; infinite where they have too few speeds in common.
+double calc_difference(const ForceCurve& session, const ForceCurve& others, double factor, double force_factor) {
   constexpr double kLeastRatio = 1.5;
   constexpr int kSpeeds = 25;
   const double low_m_s = std::max(factor * session.low_m_s(), others.low_m_s());
@@ -164,34 +173,35 @@ double calc_difference(const ForceCurve& session, const ForceCurve& others, doub
     const double speed_m_s = low_m_s + (high_m_s - low_m_s) * i / (kSpeeds - 1);
     const double other_N = others.force_N(speed_m_s);
     if (!(other_N > 0.0)) return std::numeric_limits<double>::infinity();
-    squares += std::pow(factor * session.force_N(speed_m_s / factor) / other_N - 1.0, 2);
+    squares += std::pow(force_factor * session.force_N(speed_m_s / factor) / other_N - 1.0, 2);
   }
   return std::sqrt(squares / kSpeeds);
 }
 
 /// The question for the unit of one session, where there is one.
 std::optional<std::string> doubt_unit_of(const std::string& name, const ForceCurve& session, const ForceCurve& others,
-                                         bool several_others, const std::string& column) {
+                                         bool several_others, const MeasuredForce& force) {
   constexpr double kApart = 0.1, kAgree = 0.05, kClearly = 3.0;
   struct Unit {
     const char* name;
     double km_h;
   };
-  const double as_it_stands = calc_difference(session, others, 1.0);
+  const double as_it_stands = calc_difference(session, others, 1.0, 1.0);
   if (as_it_stands < kApart) return std::nullopt;
   for (const Unit& unit : {Unit{"mph", kMph_m_s * kKmhPerMs}, Unit{"m/s", kKmhPerMs}}) {
     const auto agrees = [&](double factor) {
-      const double there = calc_difference(session, others, factor);
+      const double there = calc_difference(session, others, factor, force.is_from_speeds ? factor : 1.0);
       return there < kAgree && there * kClearly < as_it_stands;
     };
     const bool is_session = agrees(unit.km_h);
     if (!is_session && !(several_others && agrees(1.0 / unit.km_h))) continue;
     return fmt::format(
-        "the forces of session '{}' over speed differ from those of the others {}, and agree with them within 5 % if "
-        "{} in {}: are they?",
-        name, std::isfinite(as_it_stands) ? fmt::format("by {:.0f} %", 100.0 * as_it_stands) : "by far",
-        is_session ? fmt::format("its values of {} are", column)
-                   : fmt::format("its values of {0} are in km/h and those of the others", column),
+        "the forces of session '{}' over speed {}, and agree with them within 5 % if {} in {}: are they?", name,
+        std::isfinite(as_it_stands)
+            ? fmt::format("differ from those of the others by {:.0f} %", 100.0 * as_it_stands)
+            : "have hardly a speed in common with those of the others",
+        is_session ? fmt::format("its values of {} are", force.speed_columns)
+                   : fmt::format("its values of {} are in km/h and those of the others", force.speed_columns),
         unit.name);
   }
   return std::nullopt;
@@ -207,7 +217,10 @@ std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
   const std::vector<SessionMean> means = list_session_means(whole);
   const double between_freedom = static_cast<double>(means.size()) - 1.0;
   Scatter runs = find_scatter_within(all);
-  if (runs.freedom < 1.0 && winds == SessionWinds::kInDeviations) runs = find_scatter_of_pairs(whole);
+  if (winds == SessionWinds::kInDeviations && !means.empty()) {
+    const Scatter of_pairs = find_scatter_of_pairs(whole);
+    if (of_pairs.freedom > runs.freedom) runs = of_pairs;
+  }
   if (between_freedom < 1.0 || runs.freedom < 1.0) return std::nullopt;
   double weights = 0.0, weighted = 0.0, plain = 0.0;
   for (const SessionMean& mean : means) {
@@ -241,13 +254,19 @@ std::optional<std::string> doubt_session_difference(const CoastdownData& data,
   const std::optional<SessionDifference> found = compare_sessions(data, deviations, winds);
   if (!found.has_value() || found->p_value >= kUnlikely || found->relative_sd < kLeastShare) return std::nullopt;
   return fmt::format(
-      "the sessions differ by a standard deviation of {:.1f} % of the force, more than their noise explains: that of "
-      "'{}' is {:.1f} % {} than the mean of the others. Where sessions cover different speeds, this bends the curve",
+      "the sessions differ by a standard deviation of {:.1f} % of the force, more than their noise explains: the force "
+      "in session '{}' is {:.1f} % {} than {}. Where sessions cover different speeds, this bends the curve",
       100.0 * found->relative_sd, found->farthest, 100.0 * std::abs(found->relative),
-      found->relative > 0.0 ? "higher" : "lower");
+      found->relative > 0.0 ? "higher" : "lower",
+      found->other.empty() ? "the mean of the others" : fmt::format("in session '{}'", found->other));
 }
 
-std::vector<std::string> doubt_session_units(const CoastdownData& data, const std::vector<RunResistance>& runs) {
+MeasuredForce force_of_coastdowns(const CoastdownData& data) {
+  return {true, data.runs.front().bins.empty() ? "speed_km_h" : "v_hi_kmh and v_lo_kmh"};
+}
+
+std::vector<std::string> doubt_session_units(const CoastdownData& data, const std::vector<RunResistance>& runs,
+                                             const MeasuredForce& force) {
   std::map<std::string, ForceCurve> sessions;
   for (const RunResistance& run : runs) sessions[data.runs[run.run].session];
   if (sessions.size() < 2) return {};
@@ -261,11 +280,10 @@ std::vector<std::string> doubt_session_units(const CoastdownData& data, const st
     }
   }
   std::vector<std::string> doubts;
-  const std::string column = data.runs.front().bins.empty() ? "speed_km_h" : "v_hi_kmh and v_lo_kmh";
   for (auto& [name, curve] : sessions) {
     ForceCurve& rest = others.at(name);
     if (!curve.fit() || !rest.fit()) continue;
-    if (const auto doubt = doubt_unit_of(name, curve, rest, sessions.size() > 2, column)) doubts.push_back(*doubt);
+    if (const auto doubt = doubt_unit_of(name, curve, rest, sessions.size() > 2, force)) doubts.push_back(*doubt);
   }
   return doubts;
 }

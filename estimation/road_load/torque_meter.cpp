@@ -376,8 +376,9 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   const double effective_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
   std::vector<MeanTorque> means;
   std::vector<ReferenceRun> runs;
+  const std::vector<double> positions = find_positions(file.runs);
   for (const CoastdownRun& run : file.runs.runs) {
-    runs.push_back({name_of_run(run, file.runs), run.session, run.heading, {}});
+    runs.push_back({name_of_run(run, file.runs), run.session, run.heading, {}, positions[runs.size()]});
     procedure.run_names.push_back(runs.back().name);
   }
   std::map<int, std::pair<double, int>> sums;  // of the mean speeds
@@ -416,7 +417,7 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   finish_procedure(options, procedure);
   put_fitted(procedure);
   doubt_units(procedure);
-  doubt_sessions(file.runs, windy, procedure);
+  doubt_sessions(file.runs, windy, {false, "reference_km_h and speed_km_h"}, procedure);
   doubt_recorded_conditions(file.runs, "wind_m_s", false, procedure);
   const models::RoadLoad<double> load{procedure.road_load(0), procedure.road_load(1), procedure.road_load(2)};
   if (const auto doubt = doubt_torque_scale(load, procedure.correction.mass_kg, procedure.wheel_radius_m)) {

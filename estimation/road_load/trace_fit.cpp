@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <boost/math/tools/minima.hpp>
 
+#include "sim/core/error.h"
+
 namespace rollrig::estimation {
 namespace {
 
@@ -169,10 +171,14 @@ TraceFit fit_trace_blocks(const std::vector<LinearBlock>& blocks, const std::vec
     forces.push_back(block.X * alike.estimate.coefficients);
     most_N = std::max(most_N, forces.back().cwiseAbs().maxCoeff());
   }
-  const SessionFit by_force = fit_with_sessions(blocks, sessions, ones, most_N);
-  const SessionFit by_share = fit_with_sessions(blocks, sessions, forces, 1.0);
-  const bool is_share = by_share.estimate.log_likelihood - by_force.estimate.log_likelihood >= kClearlyMoreLikely;
-  return is_share ? TraceFit{by_share.estimate, 0.0, by_share.sd} : TraceFit{by_force.estimate, by_force.sd, 0.0};
+  try {
+    const SessionFit by_force = fit_with_sessions(blocks, sessions, ones, most_N);
+    const SessionFit by_share = fit_with_sessions(blocks, sessions, forces, 1.0);
+    const bool is_share = by_share.estimate.log_likelihood - by_force.estimate.log_likelihood >= kClearlyMoreLikely;
+    return is_share ? TraceFit{by_share.estimate, 0.0, by_share.sd} : TraceFit{by_force.estimate, by_force.sd, 0.0};
+  } catch (const RunFailure&) {  // the term of a session is that of the headings, or of the coefficients
+    return {alike.estimate, 0.0, 0.0, false};
+  }
 }
 
 }  // namespace rollrig::estimation

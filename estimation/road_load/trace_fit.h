@@ -14,12 +14,14 @@ enum TraceScatter : Eigen::Index { kSpeedNoise, kWhiteForce, kForceOfRun, kSlope
 
 struct TraceFit {
   LinearEstimate estimate;
-  double session_force_N = 0.0;  // scatter from session to session, the same at all speeds, or
-  double session_share = 0.0;    // the same share of the force; one of the two is 0
+  double session_force_N = 0.0;   // scatter from session to session, the same at all speeds, or
+  double session_share = 0.0;     // the same share of the force; at least one of the two is 0
+  bool sessions_are_told = true;  // false: a session is a heading, and how sessions differ is not in the intervals
 };
 
-/// Coefficients and components of variance, a block for each run. Several sessions, of which one has two runs, scatter
-/// as well: by a force that is the same at all speeds, or by a share of the force where that is clearly more likely.
+/// Coefficients and components of variance, a block for each run. If there are several
+/// sessions, and one of them has two runs or more, sessions scatter as well: by a force that is the same at all speeds,
+/// or by a share of the force where that is clearly more likely.
 /// Equation  V = D + s f f' for the runs of a session, D by the components of the runs
 /// Symbols   s variance between sessions; f ones, or forces of the fit [N]; `sessions`: name of that of each block
 /// Method    D from a fit in which each session has a term of this shape; s by the restricted likelihood with that D

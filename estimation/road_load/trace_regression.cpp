@@ -321,7 +321,7 @@ void doubt_vane(const CoastdownData& data, const std::vector<TraceRun>& traces, 
       *offset_rad * kDegPerRad));
 }
 
-/// Warns of yaw angles that are far below what a wind that along the road makes likely: rad in place of deg.
+/// Warns of yaw angles that are far below what the wind along the road makes likely: they are in rad and not in deg.
 void doubt_yaw_unit(const CoastdownData& winds, const std::vector<TraceRun>& traces,
                     std::vector<std::string>& warnings) {
   constexpr double kLeastWind_m_s = 0.5;     // Assumed
@@ -482,8 +482,13 @@ void put_session_scatter(const TraceFit& fit, RoadLoadProcedure& procedure) {
     procedure.further.push_back(
         {"session_to_session_N", "scatter from session to session, N", fit.session_force_N, 0.0});
   }
+  if (!fit.sessions_are_told) {
+    procedure.warnings.push_back(
+        "the sessions cannot be told from the headings or the speeds of their runs: how sessions differ is not in the "
+        "intervals");
+  }
   if (fit.session_share > 0.0) {
-    procedure.further.push_back({"session_to_session_share", "scatter from session to session, of the force",
+    procedure.further.push_back({"session_to_session_share", "scatter from session to session, as a share of the force",
                                  fit.session_share, 0.0});
   }
 }
@@ -597,15 +602,23 @@ RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoad
     }
   }
   doubt_units(procedure);
-  doubt_sessions(file.data, {}, procedure);
+  doubt_sessions(file.data, {}, force_of_coastdowns(file.data), procedure);
   doubt_recorded_conditions(winds, on_board ? "air_speed_km_h" : "wind_m_s", !terms.has_slope, procedure);
   return procedure;
 }
 
 /// Change of the coefficients by an error of all vehicle speeds [1/(m/s)]: the same regression on speeds that have it.
+/// With several sessions, both regressions take them as one, so that their scatter has the same shape in both.
 Eigen::Vector3d find_change_by_speed(CoastdownFile file, const RoadLoadProcedureOptions& options,
-                                     const Eigen::Vector3d& as_tested) {
+                                     Eigen::Vector3d as_tested) {
   constexpr double kError_m_s = 0.2 / kKmhPerMs;
+  const std::string session = file.data.runs.front().session;
+  bool has_several = false;
+  for (CoastdownRun& run : file.data.runs) {
+    has_several = has_several || run.session != session;
+    run.session = session;
+  }
+  if (has_several) as_tested = evaluate_traces_once(file, options).as_tested;
   for (CoastdownRun& run : file.data.runs) {
     for (double& speed_m_s : run.speed_m_s) speed_m_s += kError_m_s;
   }

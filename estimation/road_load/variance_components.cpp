@@ -120,6 +120,25 @@ Sums sum_up(const std::vector<LinearBlock>& blocks, const VectorXd& components, 
   return sums;
 }
 
+/// The square system of components that differ by many powers of ten, in units in which its diagonal is one.
+class ScaledSystem {
+ public:
+  explicit ScaledSystem(const MatrixXd& H) : unit_(H.diagonal().cwiseSqrt().cwiseInverse()) {
+    scaled_ = unit_.asDiagonal() * H * unit_.asDiagonal();
+  }
+  VectorXd solve(const VectorXd& q) const {
+    return unit_.cwiseProduct(scaled_.colPivHouseholderQr().solve(unit_.cwiseProduct(q)));
+  }
+  MatrixXd inverse() const {
+    return unit_.asDiagonal() * MatrixXd(scaled_.completeOrthogonalDecomposition().pseudoInverse()) *
+           unit_.asDiagonal();
+  }
+
+ private:
+  VectorXd unit_;
+  MatrixXd scaled_;
+};
+
 /// Solves H s = q over the components that the data decide, negative ones put to their floor.
 VectorXd solve_components(const Sums& sums, const VectorXd& floors, const std::vector<bool>& decided,
                           std::vector<Index>& kept) {
@@ -133,8 +152,7 @@ VectorXd solve_components(const Sums& sums, const VectorXd& floors, const std::v
     for (Index j = 0; j < floors.size(); ++j) {
       if (std::find(kept.begin(), kept.end(), j) == kept.end()) q -= sums.H(kept, j) * floors(j);
     }
-    const MatrixXd H = sums.H(kept, kept);
-    const VectorXd s = H.colPivHouseholderQr().solve(q);
+    const VectorXd s = ScaledSystem(sums.H(kept, kept)).solve(q);
     std::size_t worst = kept.size();
     double least = 0.0;
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -200,8 +218,7 @@ LinearEstimate step_variance_components(const std::vector<LinearBlock>& blocks, 
   estimate.components = solve_components(sums, floors, estimate.decided, kept);
   estimate.degrees_freedom = VectorXd::Constant(sums.beta.size(), std::numeric_limits<double>::infinity());
   if (kept.empty()) return estimate;
-  const MatrixXd H = sums.H(kept, kept);
-  const MatrixXd variance = H.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd variance = ScaledSystem(sums.H(kept, kept)).inverse();
   for (Index c = 0; c < sums.beta.size(); ++c) {
     VectorXd gradient(static_cast<Index>(kept.size()));
     for (std::size_t i = 0; i < kept.size(); ++i) {

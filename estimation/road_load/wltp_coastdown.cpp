@@ -110,10 +110,11 @@ void report_lost_speeds(const CoastdownRun& run, const ReferenceRun& of_run, con
 std::vector<ReferenceRun> list_reference_runs(const CoastdownData& data, const RoadLoadProcedureOptions& options,
                                               std::vector<std::string>& warnings) {
   std::vector<ReferenceRun> runs;
+  const std::vector<double> positions = find_positions(data);
   for (const CoastdownRun& run : data.runs) {
     const EdgeTimes edges = run.bins.empty() ? find_edge_times(run, options) : EdgeTimes{add_up_bins(run), {}};
-    runs.push_back(
-        {name_of_run(run, data), run.session, run.heading, find_reference_times(edges.times_s, options)});
+    runs.push_back({name_of_run(run, data), run.session, run.heading, find_reference_times(edges.times_s, options),
+                    positions[runs.size()]});
     report_lost_speeds(run, runs.back(), edges.lost_km_h, warnings);
   }
   const bool none = std::all_of(runs.begin(), runs.end(), [](const ReferenceRun& run) { return run.values.empty(); });
@@ -218,7 +219,7 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
     }
   }
   put_fitted(procedure);
-  doubt_sessions(file.data, windy, procedure);  // also of rejected pairs
+  doubt_sessions(file.data, windy, force_of_coastdowns(file.data), procedure);  // also of rejected pairs
   doubt_units(procedure);
   doubt_recorded_conditions(file.data, "wind_m_s", false, procedure);
   return procedure;
