@@ -46,8 +46,8 @@ void ReferenceChoice::require_enough(const std::map<int, double>& speeds_m_s) co
     if (speed < speeds_.back() || speed > speeds_.front()) continue;
     if (std::find(speeds_.begin(), speeds_.end(), speed) != speeds_.end()) continue;
     if (counts_.count(speed) == 0) {
-      const std::string what = fmt::format("no run has {} at {} km/h, but runs have speeds above and below it", quantity_,
-                                           speed);
+      const std::string what =
+          fmt::format("no run has {} at {} km/h, but runs have speeds above and below it", quantity_, speed);
       throw InputError({what, "", 0, "speed", "",
                         fmt::format("runs that pass {} and {} km/h: split runs have to overlap there", speed + 5,
                                     speed - 5),

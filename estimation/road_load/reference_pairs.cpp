@@ -78,13 +78,36 @@ std::vector<std::pair<std::size_t, std::size_t>> match_in_order(const std::vecto
   return matches;
 }
 
-void pair_session(const std::vector<ReferenceRun>& runs, const std::string& session, PairedRuns& paired) {
-  std::vector<std::size_t> in_order;
+/// Runs of a session that go together, in their order: more than one group where runs are split.
+std::vector<std::vector<std::size_t>> group_session(const std::vector<ReferenceRun>& runs, const std::string& session) {
+  std::vector<std::size_t> falling;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].session == session && runs[i].heading != 0 && !runs[i].values.empty()) in_order.push_back(i);
+    if (runs[i].session == session && runs[i].heading != 0 && !runs[i].values.empty()) falling.push_back(i);
   }
-  std::stable_sort(in_order.begin(), in_order.end(),
-                   [&runs](std::size_t a, std::size_t b) { return runs[a].position < runs[b].position; });
+  const auto ends = [&runs](std::size_t i) {
+    return std::pair(runs[i].values.begin()->first, runs[i].values.rbegin()->first);
+  };
+  std::stable_sort(falling.begin(), falling.end(), [&](std::size_t a, std::size_t b) { return ends(a) > ends(b); });
+  std::vector<std::vector<std::size_t>> groups;
+  for (const std::size_t run : falling) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<std::size_t>& members) {
+      return go_together(list_speeds(runs[members.front()]), list_speeds(runs[run]));
+    });
+    if (group == groups.end()) {
+      groups.push_back({run});
+    } else {
+      group->push_back(run);
+    }
+  }
+  for (std::vector<std::size_t>& group : groups) {
+    std::sort(group.begin(), group.end(), [&runs](std::size_t a, std::size_t b) {
+      return std::pair(runs[a].position, a) < std::pair(runs[b].position, b);
+    });
+  }
+  return groups;
+}
+
+void pair_group(const std::vector<ReferenceRun>& runs, const std::vector<std::size_t>& in_order, PairedRuns& paired) {
   WayRuns plus, minus;
   for (std::size_t place = 0; place < in_order.size(); ++place) {
     WayRuns& way = runs[in_order[place]].heading > 0 ? plus : minus;
@@ -126,7 +149,9 @@ bool ReferencePair::has(int speed) const { return std::find(speeds.begin(), spee
 
 PairedRuns pair_runs(const std::vector<ReferenceRun>& runs) {
   PairedRuns paired;
-  for (const std::string& session : name_sessions(runs)) pair_session(runs, session, paired);
+  for (const std::string& session : name_sessions(runs)) {
+    for (const std::vector<std::size_t>& group : group_session(runs, session)) pair_group(runs, group, paired);
+  }
   std::sort(paired.alone.begin(), paired.alone.end());
   sort_into_parts(paired.pairs);
   return paired;

@@ -1,9 +1,12 @@
 #include "estimation/road_load/reference_speeds.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "sim/core/error.h"
 
@@ -142,8 +145,8 @@ TEST_CASE("reference speeds: one heading, too few pairs, too few speeds", "[fast
 }
 
 TEST_CASE("reference speeds: runs whose ends scatter are all used", "[fast]") {
-  std::vector<ReferenceRun> runs = make_reference_runs({0.01, -0.01, 0.0, 0.004, -0.004});
-  take_out({2, 3, 6}, {130}, runs);  // odd runs have the heading +
+  std::vector<ReferenceRun> runs = make_reference_runs({0.01, -0.01, 0.003, 0.004, -0.004});
+  take_out({2, 3}, {130}, runs);  // odd runs have the heading +
   const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
   CHECK(result.warnings.empty());
   CHECK(result.speeds.size() == 5);
@@ -151,27 +154,53 @@ TEST_CASE("reference speeds: runs whose ends scatter are all used", "[fast]") {
   REQUIRE(result.pairs.size() == 5);
   for (const ReferencePair& pair : result.pairs) CHECK(pair.part == 0);
   CHECK(result.overlaps.empty());
-  CHECK(result.precisions.front().pairs == 3);  // 130 km/h: runs 1 and 4, 5 and 8, 7 and 10
+  CHECK(result.precisions.front().pairs == 3);  // 130 km/h: runs 5 to 10
   for (std::size_t i = 1; i < 5; ++i) CHECK(result.precisions[i].pairs == 5);
   const double v = 130 / 3.6;
-  CHECK(result.resistances.front() == Approx((1.0 + 0.002 / 3.0) * (100.0 + 2.0 * v + 0.4 * v * v)));
+  CHECK(result.resistances.front() == Approx(1.001 * (100.0 + 2.0 * v + 0.4 * v * v)));
   // three of five pairs at one speed tell less than five, and more than three at all
   CHECK(result.freedom(2) > 2.0);
   CHECK(result.freedom(2) < 4.0);
 }
 
-TEST_CASE("reference speeds: a run is paired with one of the same speeds, the first of those", "[fast]") {
+TEST_CASE("reference speeds: runs are paired with their neighbors, in any order of the file", "[fast]") {
+  using Pairs = std::vector<std::pair<std::string, std::string>>;
+  const auto name_pairs = [](const std::vector<ReferenceRun>& runs) {
+    Pairs names;
+    for (const ReferencePair& pair : pair_runs(runs).pairs) {
+      names.emplace_back(runs[pair.plus].name, runs[pair.minus].name);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  };
   std::vector<ReferenceRun> runs = make_reference_runs({0.0, 0.0, 0.0, 0.0});
-  take_out({3, 4}, {20}, runs);
-  std::swap(runs[1], runs[3]);  // the run without 20 km/h comes first now
-  const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
-  const std::vector<std::pair<std::size_t, std::size_t>> wanted{{0, 3}, {2, 1}, {4, 5}, {6, 7}};
-  REQUIRE(result.pairs.size() == 4);
-  for (std::size_t i = 0; i < 4; ++i) {
-    CHECK(result.pairs[i].plus == wanted[i].first);
-    CHECK(result.pairs[i].minus == wanted[i].second);
-  }
-  CHECK(result.precisions.back().pairs == 3);
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].position = static_cast<double>(i);
+  const Pairs neighbors{{"1", "2"}, {"3", "4"}, {"5", "6"}, {"7", "8"}};
+  std::vector<ReferenceRun> shuffled{runs[7], runs[0], runs[5], runs[2], runs[3], runs[4], runs[1], runs[6]};
+  CHECK(name_pairs(shuffled) == neighbors);
+  take_out({2}, {130}, runs);  // one that begins late
+  CHECK(name_pairs(runs) == neighbors);
+  runs.erase(runs.begin() + 3);  // run 4 is missing
+  CHECK(name_pairs(runs) == Pairs{{"1", "2"}, {"5", "6"}, {"7", "8"}});
+  CHECK(pair_runs(runs).alone == std::vector<std::size_t>{2});
+  // one heading after the other: the n-th with the n-th
+  for (ReferenceRun& run : shuffled) run.position += run.heading > 0 ? 0.0 : 100.0;
+  CHECK(name_pairs(shuffled) == neighbors);
+}
+
+TEST_CASE("reference speeds: sessions that differ widen the covariance, those that do not leave it", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.001, -0.001, 0.0, 0.052, 0.048, 0.05});
+  for (std::size_t i = 6; i < runs.size(); ++i) runs[i].session = "pm";
+  const ReferenceResult apart = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  CHECK(apart.has_session_scatter);
+  CHECK(apart.freedom(0) == Approx(1.0));
+  // of means of two sessions, 5 % apart: a standard deviation of 2.5 % at least
+  CHECK(std::sqrt(apart.covariance(0, 0)) > 0.02 * apart.coefficients(0));
+  runs = make_reference_runs({0.001, -0.001, 0.0, 0.002, -0.002, 0.0005});
+  for (std::size_t i = 6; i < runs.size(); ++i) runs[i].session = "pm";
+  const ReferenceResult alike = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  CHECK_FALSE(alike.has_session_scatter);
+  CHECK(alike.freedom(0) == Approx(5.0));
 }
 
 TEST_CASE("reference speeds: a pair that begins late is used at the speeds that it has", "[fast]") {
