@@ -67,7 +67,10 @@ IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::option
     // without scatter of passing times the covariance has no inverse: a first guess must not take it all away
     estimate.components(kPassing) = std::max(estimate.components(kPassing), 0.1 * components(kPassing));
     const VectorXd before = coefficients;
-    const double share = step_to(problem, estimate.coefficients, coefficients);
+    // steps that come back on themselves are halved, as those of components
+    const double step = iterations <= kUndampedIterations ? 1.0 : 0.5;
+    const VectorXd wanted = before + step * (estimate.coefficients - before);
+    const double share = step_to(problem, wanted, coefficients);
     const VectorXd sd = estimate.covariance.diagonal().cwiseSqrt();
     bool settled = share == 1.0;
     for (Index i = 0; i < coefficients.size(); ++i) {

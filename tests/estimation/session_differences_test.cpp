@@ -263,6 +263,29 @@ TEST_CASE("sessions of one pair are compared, by what their headings have in com
   CHECK(has_session_warning(fit_traces(make_sessions_of_pairs(1.1, 0.3, 1)), "the sessions differ"));
 }
 
+TEST_CASE("sessions of one pair that differ by several percent always have a fit", "[slow]") {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    RandomStream random(seed, "factors of sessions");
+    CoastdownData data;
+    for (std::uint64_t session = 0; session < 4; ++session) {
+      const double factor = 1.0 + 0.08 * random.normal();
+      tests::CoastdownStudy study;
+      study.pairs = 1;
+      study.interval_s = 1.0;
+      study.run_force_sd_N = 3.0;
+      study.run_wind_sd_m_s = 0.2;
+      study.gust_N_sqrt_s = 10.0;
+      study.load = {factor * study.load.A_N, factor * study.load.B_N_s_per_m, factor * study.load.C_N_s2_per_m2};
+      for (CoastdownRun& run : tests::simulate_coastdowns(study, 10 * seed + session).runs) {
+        run.session = std::to_string(session);
+        data.runs.push_back(run);
+      }
+    }
+    INFO(seed);
+    CHECK_NOTHROW(fit_study(data));
+  }
+}
+
 TEST_CASE("sessions of one pair with winds of their own do not differ", "[slow]") {
   int said = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
