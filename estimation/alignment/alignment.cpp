@@ -24,6 +24,9 @@ constexpr const char* kSection3 = "EU 2020/740 Annex V, 3; second-hand";
 constexpr const char* kLargestResidual = "largest residual";
 constexpr double kMostBend_N_per_kN = 0.02;  // Assumed: a fifth of the 0.1 N/kN to which a label is rounded
 constexpr double kMostScatter_N_per_kN = 0.1;  // Assumed: of tires about a line; a label is rounded to it
+// Assumed: scaled residual of a tire, or exchanged values, that scatter of up to kMostScatter does not make in more than
+// 1 of 200 alignments
+constexpr double kLeastMistake_N_per_kN = 2.7 * kMostScatter_N_per_kN;
 constexpr double kNoLineLevel = 0.001;         // Assumed: of significance of such scatter
 constexpr double kMostChange = 0.2;            // Assumed: of a value, by a line between two machines
 
@@ -50,10 +53,24 @@ std::string describe_outlier(const AlignmentFile& file, const LineFit& fit, cons
       file.tires[outlier.place].name, point.x, outlier.by_others_y, point.y, outlier.p_value);
 }
 
+std::string describe_exchange(const AlignmentFile& file, const LineFit& fit, const LineExchange& exchange) {
+  return fmt::format(
+      "tires '{}' and '{}' look exchanged on one of the machines: with their values exchanged, the line describes all "
+      "tires (p = {:.2g} instead of {:.1g})",
+      file.tires[exchange.first].name, file.tires[exchange.second].name, exchange.lack_of_fit_p, fit.lack_of_fit_p);
+}
+
+/// Empty where there is none.
+std::string describe_mistake(const AlignmentFile& file, const AlignmentResult& result) {
+  const LineMistake& mistake = result.mistake;
+  if (mistake.exchange.has_value()) return describe_exchange(file, result.fit, *mistake.exchange);
+  return mistake.outlier.has_value() ? describe_outlier(file, result.fit, *mistake.outlier) : "";
+}
+
 /// The same behind another sentence; empty where there is none.
-std::string mention_outlier(const AlignmentFile& file, const AlignmentResult& result) {
-  if (!result.outlier.has_value()) return "";
-  std::string text = describe_outlier(file, result.fit, *result.outlier);
+std::string mention_mistake(const AlignmentFile& file, const AlignmentResult& result) {
+  std::string text = describe_mistake(file, result);
+  if (text.empty()) return "";
   text.front() = 'T';
   return ". " + text;
 }
@@ -94,10 +111,12 @@ void fit_machines(const AlignmentFile& file, AlignmentResult& result) {
                       ""});
   }
   result.fit = fit_line(x, y, repeats);
-  result.outlier = find_line_outlier(result.fit, kMostScatter_N_per_kN);
+  const bool are_both_repeated = result.sigma_l.has_value();
+  result.mistake =
+      find_line_mistake(result.fit, are_both_repeated ? repeats : RepeatScatter{}, kLeastMistake_N_per_kN);
   if (result.fit.slope > 0.0) return;
   throw InputError({fmt::format("the two machines order the tires the other way round (A2 = {:.3f}){}", result.fit.slope,
-                                mention_outlier(file, result)),
+                                mention_mistake(file, result)),
                     file.path, 0, "", "",
                     "values of the reference that rise with the measured ones: are names of tires "
                     "exchanged?",
@@ -187,12 +206,12 @@ void add_rules(const AlignmentFile& file, AlignmentResult& result) {
   }
 }
 
-/// Refuses what is no alignment. One tire that does not fit changes the slope, and so the range.
+/// Refuses what is no alignment. A tire that does not fit, or two that are exchanged, change the slope, and so the range.
 void require_rules(const AlignmentFile& file, const AlignmentResult& result) {
   for (const AlignmentCheck& check : result.checks) {
     if (check.is_met || !check.stops_fit) continue;
     throw InputError({fmt::format("these measurements do not make an alignment: {}{}", check.name,
-                                  mention_outlier(file, result)),
+                                  mention_mistake(file, result)),
                       file.path, 0, "", check.found,
                       fmt::format("{} ({}); --preliminary to compute it all the same", check.limit, check.source), ""});
   }
@@ -376,7 +395,8 @@ std::optional<std::string> doubt_line(const char* A, const char* B, double slope
 }
 
 void add_line_warnings(const AlignmentFile& file, AlignmentResult& result) {
-  if (result.outlier.has_value()) result.warnings.push_back(describe_outlier(file, result.fit, *result.outlier));
+  const std::string mistake = describe_mistake(file, result);
+  if (!mistake.empty()) result.warnings.push_back(mistake);
   if (!result.is_of_network) {
     result.warnings.push_back(
         "A1 and B1 of the reference laboratory are not given (--reference): the result is aligned "
@@ -390,7 +410,7 @@ void add_line_warnings(const AlignmentFile& file, AlignmentResult& result) {
     if (doubt.has_value()) result.warnings.push_back(*doubt);
   }
   for (const AlignmentCheck& check : result.checks) {
-    const bool is_said = result.outlier.has_value() && check.name == kLargestResidual;
+    const bool is_said = !mistake.empty() && check.name == kLargestResidual;
     if (!check.is_met && !check.is_rule && !is_said) {
       result.warnings.push_back(fmt::format("{}: {}; expected {}", check.name, check.found, check.limit));
     }

@@ -8,6 +8,7 @@
 #include "estimation/alignment/alignment_file.h"
 #include "estimation/alignment/control_tires.h"
 #include "estimation/alignment/line_fit.h"
+#include "estimation/alignment/line_mistake.h"
 #include "include/rollrig/align.h"
 #include "sim/core/json.h"
 
@@ -22,7 +23,7 @@ struct AlignmentResult {
   std::size_t needed_measurements = 4;     // of each tire, at this sigma_m
   ControlMonitoring monitoring;            // of the candidate machine
   ControlMonitoring reference_monitoring;  // of the reference machine
-  std::optional<LineOutlier> outlier;      // the tire that the line of the others does not describe
+  LineMistake mistake;                     // a tire off the line of the others, or two that are exchanged
   std::vector<AlignmentCheck> checks;
   std::vector<std::string> due_because;  // reasons to align anew; empty: none
   double valid_until_s = 0.0;

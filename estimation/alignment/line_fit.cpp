@@ -146,6 +146,8 @@ double calc_too_near_p(const LineFit& fit, double repeat_sd, double repeat_freed
   return boost::math::cdf(boost::math::fisher_f(between, repeat_freedom), std::pow(fit.residual_sd / repeat_sd, 2));
 }
 
+double LinePoint::scaled_residual() const { return std::abs(residual) / std::sqrt(1.0 - leverage); }
+
 double LineFit::slope_sd() const { return sd / std::sqrt(Sxx); }
 
 double LineFit::offset_sd() const {
@@ -169,7 +171,7 @@ LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, con
   return fit;
 }
 
-std::optional<LineOutlier> find_line_outlier(const LineFit& fit, double least_miss) {
+std::optional<LineOutlier> find_line_outlier(const LineFit& fit, double least_size) {
   constexpr double kUnlikely = 0.005;
   const auto weigh = [](const LinePoint& point) {
     return std::isfinite(point.studentized) ? std::abs(point.studentized) : 0.0;
@@ -177,9 +179,9 @@ std::optional<LineOutlier> find_line_outlier(const LineFit& fit, double least_mi
   const auto worst = std::max_element(fit.points.begin(), fit.points.end(),
                                       [&](const LinePoint& a, const LinePoint& b) { return weigh(a) < weigh(b); });
   if (worst == fit.points.end() || weigh(*worst) <= 0.0 || worst->p_value >= kUnlikely) return std::nullopt;
-  const double miss = worst->residual / (1.0 - worst->leverage);
-  if (std::abs(miss) <= least_miss) return std::nullopt;
-  return LineOutlier{static_cast<std::size_t>(worst - fit.points.begin()), worst->y - miss, worst->p_value};
+  if (worst->scaled_residual() <= least_size) return std::nullopt;
+  const double by_others_y = worst->y - worst->residual / (1.0 - worst->leverage);
+  return LineOutlier{static_cast<std::size_t>(worst - fit.points.begin()), by_others_y, worst->p_value};
 }
 
 AlignmentLine make_alignment_line(const LineFit& fit, const ScatterEstimate& sigma_m, double reference_freedom) {

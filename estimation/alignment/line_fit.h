@@ -53,6 +53,11 @@ struct LinePoint {
   double leverage = 0.0;     // share of this point's y in the line's value there
   double studentized = 0.0;  // residual over its standard deviation without this point; NaN where none is known
   double p_value = 1.0;      // of a residual so large somewhere among the points, by Bonferroni
+
+  /// Size of the residual, by the same measure for all points: its standard deviation is that of the scatter about the
+  /// line.
+  /// Equation  |residual|/sqrt(1 - leverage)
+  double scaled_residual() const;
 };
 
 /// What the repeats say of the scatter of a point about the line.
@@ -105,14 +110,19 @@ LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, con
 struct LineOutlier {
   std::size_t place = 0;     // among the points of the fit
   double by_others_y = 0.0;  // what the line of the other points gives at its x
-  double p_value = 1.0;      // as of the point
+  double p_value = 1.0;      // of so large a residual, or of so much lack of fit with the point
 };
+<<<<<<< HEAD
 /// The point of the largest studentized residual, if its p is below 0.005 and it lies farther from the line of the
 /// other points than `least_miss`. Needs four points: the other three show a scatter about their line.
+=======
+/// The point of the largest studentized residual, if its p is below 0.005 and its scaled residual is larger than
+/// `least_size`. Four points at least, of which three do not need it for a line.
+>>>>>>> 371fdca5 (Alignment: a bad tire and exchanged tires are told by the repeats; real scatter is not taken for them)
 /// Equation  y - e/(1 - h): the line of the other points at x, e residual and h leverage of the point
 /// Assumed: 0.005, so that of 200 sets without a mistake one has such a point by chance
 /// Checked   tests/estimation/alignment_test.cpp
-std::optional<LineOutlier> find_line_outlier(const LineFit& fit, double least_miss);
+std::optional<LineOutlier> find_line_outlier(const LineFit& fit, double least_size);
 
 /// Probability that the points lie so near to the line, or nearer, if they scatter as the repeats say; 1 without
 /// repeats. `repeat_sd` is that of a point about the line.

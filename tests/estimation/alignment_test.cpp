@@ -104,6 +104,37 @@ AlignmentResult align_file(const AlignmentFile& file) {
   return align_machine(file, input);
 }
 
+const std::vector<std::string> kNames{"T1", "T2", "T3", "T4", "T5"};
+
+void add_to_tire(AlignmentFile& file, std::size_t place, TireMeasurements AlignmentTire::*side, double add_N_per_kN) {
+  AlignmentTire& tire = file.tires[place];
+  for (AlignmentMeasurement& one : (tire.*side).all) one.rrc_N_per_kN += add_N_per_kN;
+  tire.reference_N_per_kN = tire.reference.mean();
+}
+
+void exchange_tires(AlignmentFile& file, std::size_t first, std::size_t second, TireMeasurements AlignmentTire::*side) {
+  std::swap(file.tires[first].*side, file.tires[second].*side);
+  for (const std::size_t place : {first, second}) {
+    file.tires[place].reference_N_per_kN = file.tires[place].reference.mean();
+  }
+}
+
+void sort_tires(AlignmentFile& file) {
+  std::sort(file.tires.begin(), file.tires.end(), [](const AlignmentTire& a, const AlignmentTire& b) {
+    return a.candidate.mean() < b.candidate.mean();
+  });
+}
+
+/// Empty where the alignment is computed.
+std::string find_refusal(const AlignmentFile& file) {
+  try {
+    align_machine(file, AlignmentInput{});
+  } catch (const InputError& error) {
+    return error.problem().what;
+  }
+  return "";
+}
+
 bool is_in(const std::vector<std::string>& sentences, const std::string& words) {
   return std::any_of(sentences.begin(), sentences.end(),
                      [&words](const std::string& one) { return one.find(words) != std::string::npos; });
@@ -354,8 +385,8 @@ TEST_CASE("sets without a mistake are not doubted, fine or coarse", "[fast]") {
       for (const char* words : {"copied", "computed", "of its own", "times right", "days lie", "sigma_m of the"}) {
         doubted += is_in(result.warnings, words) ? 1 : 0;
       }
-      residual += is_in(result.warnings, "largest residual") || result.outlier.has_value() ? 1 : 0;
-      outliers += result.outlier.has_value() ? 1 : 0;
+      residual += is_in(result.warnings, "largest residual") || result.mistake.outlier.has_value() ? 1 : 0;
+      outliers += result.mistake.outlier.has_value() ? 1 : 0;
       CHECK_FALSE(is_in(result.warnings, "change RRc by"));
     }
     INFO(each.step_N_per_kN << " " << each.sigma_m << ": " << doubted << " doubted, residual " << residual << ", "
@@ -373,9 +404,7 @@ TEST_CASE("one tire that does not fit is named, where its error also breaks the 
       AlignmentFile file = make_pair_file(random);
       for (AlignmentMeasurement& one : file.tires[place].candidate.all) one.rrc_N_per_kN *= factor;
       const std::string name = "tire '" + file.tires[place].name + "' does not fit the line of the other tires";
-      std::sort(file.tires.begin(), file.tires.end(), [](const AlignmentTire& a, const AlignmentTire& b) {
-        return a.candidate.mean() < b.candidate.mean();
-      });
+      sort_tires(file);
       INFO(place << " " << factor);
       const AlignmentResult result = align_file(file);
       CHECK(is_in(result.warnings, name));
@@ -385,9 +414,7 @@ TEST_CASE("one tire that does not fit is named, where its error also breaks the 
   RandomStream random(42, "one bad tire");
   AlignmentFile file = make_pair_file(random);
   for (AlignmentMeasurement& one : file.tires[2].candidate.all) one.rrc_N_per_kN *= 1.5;
-  std::sort(file.tires.begin(), file.tires.end(), [](const AlignmentTire& a, const AlignmentTire& b) {
-    return a.candidate.mean() < b.candidate.mean();
-  });
+  sort_tires(file);
   AlignmentInput input;
   try {
     align_machine(file, input);
@@ -404,8 +431,106 @@ TEST_CASE("of two tires that do not fit, and of three tires, none is named", "[f
     for (AlignmentMeasurement& one : file.tires[place].reference.all) one.rrc_N_per_kN += 0.5;
     file.tires[place].reference_N_per_kN += 0.5;
   }
-  CHECK_FALSE(align_file(file).outlier.has_value());
+  CHECK_FALSE(align_file(file).mistake.outlier.has_value());
   CHECK_FALSE(find_line_outlier(fit_line({6.0, 7.0, 8.0}, {6.0, 9.0, 8.0}, {}), 0.1).has_value());
+}
+
+TEST_CASE("a bad tire is named by the repeats, where three or four others scatter too few to tell", "[fast]") {
+  struct Case {
+    std::size_t place;
+    double error_N_per_kN;
+  };
+  for (const Case& each : {Case{1, 0.4}, Case{2, 0.4}, Case{2, -0.4}, Case{3, 0.4}, Case{0, 0.7}, Case{4, -0.7}}) {
+    for (const auto side : {&AlignmentTire::candidate, &AlignmentTire::reference}) {
+      RandomStream random(45, "bad tire by repeats");
+      int named = 0, by_residual = 0;
+      constexpr int kTimes = 40;
+      for (int i = 0; i < kTimes; ++i) {
+        AlignmentFile file = make_pair_file(random);
+        const std::string name = file.tires[each.place].name;
+        add_to_tire(file, each.place, side, each.error_N_per_kN);
+        sort_tires(file);
+        const AlignmentResult result = align_file(file);
+        named += is_in(result.warnings, "tire '" + name + "' does not fit the line of the other tires") ? 1 : 0;
+        by_residual += find_line_outlier(result.fit, 0.27).has_value() ? 1 : 0;
+        CHECK_FALSE(is_in(result.warnings, "look exchanged"));
+      }
+      INFO(each.place << " " << each.error_N_per_kN << ": " << named << ", by its residual " << by_residual);
+      CHECK(named >= kTimes * 8 / 10);
+      CHECK(by_residual < named);
+    }
+  }
+}
+
+TEST_CASE("two exchanged tires are named, on either machine, and where the line falls by them", "[fast]") {
+  const std::vector<std::pair<std::size_t, std::size_t>> pairs{{1, 2}, {0, 2}, {0, 1}, {1, 3}, {3, 4}, {0, 3}};
+  for (const auto& [first, second] : pairs) {
+    for (const auto side : {&AlignmentTire::candidate, &AlignmentTire::reference}) {
+      RandomStream random(46, "exchanged tires");
+      int named = 0;
+      constexpr int kTimes = 40;
+      const std::string names =
+          "'" + kNames[first] + "' and '" + kNames[second] + "' look exchanged on one of the machines";
+      const std::string other_order =
+          "'" + kNames[second] + "' and '" + kNames[first] + "' look exchanged on one of the machines";
+      for (int i = 0; i < kTimes; ++i) {
+        AlignmentFile file = make_pair_file(random);
+        exchange_tires(file, first, second, side);
+        sort_tires(file);
+        const AlignmentResult result = align_file(file);
+        named += is_in(result.warnings, names) || is_in(result.warnings, other_order) ? 1 : 0;
+        CHECK_FALSE(is_in(result.warnings, "does not fit the line"));
+      }
+      INFO(first << " " << second << ": " << named);
+      CHECK(named >= kTimes * 8 / 10);
+    }
+  }
+  RandomStream random(47, "exchanged ends");
+  AlignmentFile file = make_pair_file(random);
+  exchange_tires(file, 0, 4, &AlignmentTire::reference);
+  CHECK_THAT(find_refusal(file), Catch::Contains("the other way round") &&
+                                     Catch::Contains(". Tires 'T1' and 'T5' look exchanged on one of the machines"));
+}
+
+TEST_CASE("a mistake that also breaks the rule of the range is named in the error", "[fast]") {
+  for (const auto side : {&AlignmentTire::candidate, &AlignmentTire::reference}) {
+    for (const auto& [place, error] : {std::pair{std::size_t{4}, -1.9}, std::pair{std::size_t{0}, 1.8}}) {
+      RandomStream random(48, "bad range");
+      AlignmentFile file = make_pair_file(random);
+      const std::string name = file.tires[place].name;
+      add_to_tire(file, place, side, error);
+      sort_tires(file);
+      INFO(name);
+      CHECK_THAT(find_refusal(file), Catch::Contains("range of RRc, before and after. Tire '" + name + "' does not fit"));
+    }
+    RandomStream random(49, "bad range");
+    AlignmentFile file = make_pair_file(random);
+    exchange_tires(file, 0, 2, side);
+    sort_tires(file);
+    CHECK_THAT(find_refusal(file), Catch::Contains("range of RRc, before and after. Tires 'T") &&
+                                       Catch::Contains("look exchanged on one of the machines"));
+  }
+}
+
+TEST_CASE("real scatter of tires about the line is no mistake, and neither are few tires", "[fast]") {
+  RandomStream random(50, "innocent scatter");
+  int accused = 0;
+  constexpr int kTimes = 1200;
+  for (int i = 0; i < kTimes; ++i) {
+    const double sigma_m = 0.03 + 0.045 * random.uniform(), between_sd = 0.1 * random.uniform();
+    AlignmentFile file = make_pair_file(random, 0.01, sigma_m);
+    for (std::size_t place = 0; place < file.tires.size(); ++place) {
+      add_to_tire(file, place, &AlignmentTire::reference, between_sd * random.normal());
+    }
+    const LineMistake mistake = align_file(file).mistake;
+    accused += mistake.outlier.has_value() || mistake.exchange.has_value() ? 1 : 0;
+  }
+  INFO(accused);
+  CHECK(accused <= kTimes / 200);
+  // Of three tires, the line of any two describes both.
+  const RepeatScatter repeats{0.02, 0.02, 16.0};
+  CHECK_FALSE(find_line_mistake(fit_line({6.0, 7.0, 8.0, 9.0}, {6.0, 7.5, 8.0, 9.0}, repeats), repeats, 0.27)
+                  .outlier.has_value());
 }
 
 TEST_CASE("a residual of a few points that happen to lie on a line is none by the repeats", "[fast]") {
