@@ -112,13 +112,8 @@ struct LineOutlier {
   double by_others_y = 0.0;  // what the line of the other points gives at its x
   double p_value = 1.0;      // of so large a residual, or of so much lack of fit with the point
 };
-<<<<<<< HEAD
-/// The point of the largest studentized residual, if its p is below 0.005 and it lies farther from the line of the
-/// other points than `least_miss`. Needs four points: the other three show a scatter about their line.
-=======
 /// The point of the largest studentized residual, if its p is below 0.005 and its scaled residual is larger than
-/// `least_size`. Four points at least, of which three do not need it for a line.
->>>>>>> 371fdca5 (Alignment: a bad tire and exchanged tires are told by the repeats; real scatter is not taken for them)
+/// `least_size`. Needs four points: the other three show a scatter about their line.
 /// Equation  y - e/(1 - h): the line of the other points at x, e residual and h leverage of the point
 /// Assumed: 0.005, so that of 200 sets without a mistake one has such a point by chance
 /// Checked   tests/estimation/alignment_test.cpp
