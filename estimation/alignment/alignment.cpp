@@ -24,8 +24,8 @@ constexpr const char* kSection3 = "EU 2020/740 Annex V, 3; second-hand";
 constexpr const char* kLargestResidual = "largest residual";
 constexpr double kMostBend_N_per_kN = 0.02;  // Assumed: a fifth of the 0.1 N/kN to which a label is rounded
 constexpr double kMostScatter_N_per_kN = 0.1;  // Assumed: of tires about a line; a label is rounded to it
-// Assumed: scaled residual of a tire, or exchanged values, that scatter of up to kMostScatter does not make in more than
-// 1 of 200 alignments
+// Assumed: scaled residual of a tire, or exchanged values; where tires scatter by up to kMostScatter, evenly spread, 1
+// of 200 alignments has more
 constexpr double kLeastMistake_N_per_kN = 2.7 * kMostScatter_N_per_kN;
 constexpr double kNoLineLevel = 0.001;         // Assumed: of significance of such scatter
 constexpr double kMostChange = 0.2;            // Assumed: of a value, by a line between two machines
