@@ -51,9 +51,11 @@ VectorXd bound(const std::array<double, 3>& values) { return Eigen::Map<const Ei
 
 IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::optional<RoadLoadBounds>& bounds,
                               const IterationStart& start, Components kind) {
-  constexpr int kMostIterations = 100;
+  constexpr int kMostIterations = 200;
   constexpr int kUndampedIterations = 10;
+  constexpr int kHoldAfter = 50;             // iterations, the components
   constexpr double kCoefficientStep = 1e-4;  // of a standard deviation
+  constexpr double kHeldStep = 1e-3;         // the same where components are held, and steps are small
   constexpr double kComponentStep = 1e-3;    // of a component
   const VectorXd floors = make_floors();
   VectorXd coefficients = start.coefficients;
@@ -73,12 +75,13 @@ IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::option
     const double share = step_to(problem, wanted, coefficients);
     const VectorXd sd = estimate.covariance.diagonal().cwiseSqrt();
     bool settled = share == 1.0;
+    const bool held = iterations > kHoldAfter;
+    const double most = held ? kHeldStep : kCoefficientStep;
     for (Index i = 0; i < coefficients.size(); ++i) {
       settled = settled &&
-                std::abs(coefficients(i) - before(i)) <= kCoefficientStep * sd(i) + 1e-9 * std::abs(coefficients(i));
+                std::abs(coefficients(i) - before(i)) <= most * sd(i) + 1e-9 * std::abs(coefficients(i));
     }
     const double scale = (components - estimate.components).cwiseAbs().maxCoeff();
-    const bool held = iterations > kMostIterations / 2;
     for (Index i = 0; i < components.size() && !held; ++i) {
       const double change = std::abs(estimate.components(i) - components(i));
       settled = settled && (change <= kComponentStep * std::max(components(i), estimate.components(i)) ||
@@ -87,7 +90,7 @@ IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::option
     // a component that comes and goes across its floor would go on for ever: halve its steps, then hold it
     if (iterations <= kUndampedIterations) {
       components = estimate.components;
-    } else if (iterations <= kMostIterations / 2) {
+    } else if (!held) {
       components = 0.5 * (components + estimate.components);
     }
     if (settled) {

@@ -25,10 +25,10 @@ struct IteratedFit {
 };
 
 /// Linearizes about the present coefficients, solves the weighted problem, and repeats until nothing changes by more
-/// than 1e-4 of its standard deviation. Each component is settled when it changes by less than 1e-3 of itself; from the
-/// 11th turn on all steps are halved, and after 50 turns the components stay as they are; `components_settled` says
-/// whether they would not move by more than a tenth of themselves then.
-/// Errors    RunFailure: the force would not stay positive, or 100 iterations are not enough
+/// than 1e-4 of its standard deviation (1e-3 where the components are held). Each component is settled when it changes
+/// by less than 1e-3 of itself. From the 11th turn on all steps are halved, and after 50 turns the components stay as
+/// they are; `components_settled` says whether they would not move by more than a tenth of themselves then.
+/// Errors    RunFailure: the force would not stay positive, or 200 iterations are not enough
 IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::optional<RoadLoadBounds>& bounds,
                               const IterationStart& start, Components kind);
 
