@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -13,6 +12,8 @@
 #include <boost/math/distributions/students_t.hpp>
 
 #include "estimation/road_load/reference_choice.h"
+#include "estimation/road_load/road_load_checks.h"
+#include "sim/core/text.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -37,16 +38,13 @@ void require_both_headings(const std::vector<ReferenceRun>& runs) {
 /// Chance that groups of one mean differ as much: analysis of variance, one way. 1 where nothing tells.
 double find_chance_of_groups(const std::map<std::string, std::vector<double>>& groups) {
   double n = 0.0, sum = 0.0, within = 0.0, between = 0.0;
-  const auto mean_of = [](const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  };
   for (const auto& [name, values] : groups) {
     n += static_cast<double>(values.size());
-    sum += mean_of(values) * static_cast<double>(values.size());
-    for (const double value : values) within += std::pow(value - mean_of(values), 2);
+    sum += calc_mean(values) * static_cast<double>(values.size());
+    for (const double value : values) within += std::pow(value - calc_mean(values), 2);
   }
   for (const auto& [name, values] : groups) {
-    between += static_cast<double>(values.size()) * std::pow(mean_of(values) - sum / n, 2);
+    between += static_cast<double>(values.size()) * std::pow(calc_mean(values) - sum / n, 2);
   }
   const double between_freedom = static_cast<double>(groups.size()) - 1.0;
   const double within_freedom = n - static_cast<double>(groups.size());
@@ -200,6 +198,11 @@ void fit_coefficients(const PairTable& table, const std::map<int, double>& speed
   for (const auto& [session, sum] : of_sessions) result.covariance += factor * sum * sum.transpose();
   result.freedom.setConstant(sessions - 1.0);
   result.has_session_scatter = true;
+  result.warnings.push_back(
+      fmt::format("the pairs differ more from session to session than within sessions: the intervals have a part for "
+                  "it, with {} of freedom{}",
+                  format_count(of_sessions.size() - 1, "degree"),
+                  of_sessions.size() == 2 ? ", so that they are wide" : ""));
 }
 
 /// Pairs with a run whose wind is above the limits.

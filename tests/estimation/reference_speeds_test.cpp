@@ -193,6 +193,7 @@ TEST_CASE("reference speeds: sessions that differ widen the covariance, those th
   for (std::size_t i = 6; i < runs.size(); ++i) runs[i].session = "pm";
   const ReferenceResult apart = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
   CHECK(apart.has_session_scatter);
+  CHECK(count_warnings(apart, "with 1 degree of freedom, so that they are wide") == 1);
   CHECK(apart.freedom(0) == Approx(1.0));
   // of means of two sessions, 5 % apart: a standard deviation of 2.5 % at least
   CHECK(std::sqrt(apart.covariance(0, 0)) > 0.02 * apart.coefficients(0));

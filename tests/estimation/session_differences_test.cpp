@@ -68,6 +68,16 @@ CoastdownData join_sessions(const tests::CoastdownStudy& first, const tests::Coa
   return data;
 }
 
+/// Two sessions of three pairs, the second with 20 N more at all speeds.
+CoastdownData make_two_levels() {
+  tests::CoastdownStudy study;
+  study.pairs = 3;
+  study.run_force_sd_N = 1.0;
+  tests::CoastdownStudy high = study;
+  high.load.A_N += 20.0;
+  return join_sessions(study, high);
+}
+
 RoadLoadFit fit_study(const CoastdownData& data) {
   estimation::RoadLoadFitOptions options;
   options.mass_kg = tests::CoastdownStudy().mass_kg;
@@ -158,15 +168,11 @@ TEST_CASE("sessions that differ by a share of the force: it is said, and the int
 }
 
 TEST_CASE("sessions that differ by the same force at all speeds widen A, and not C", "[fast]") {
-  tests::CoastdownStudy study;
-  study.pairs = 3;
-  study.run_force_sd_N = 1.0;
-  tests::CoastdownStudy high = study;
-  high.load.A_N += 20.0;
-  const RoadLoadFit fit = fit_study(join_sessions(study, high));
+  const RoadLoadFit fit = fit_study(make_two_levels());
   CHECK(fit.scatter.session_force_N.value_or(0.0) == Approx(20.0 / std::sqrt(2.0)).epsilon(0.1));
   CHECK_FALSE(fit.scatter.session_share.has_value());
-  CHECK(holds_both(fit, 0, study.load.A_N, high.load.A_N));
+  const double A_N = tests::CoastdownStudy().load.A_N;
+  CHECK(holds_both(fit, 0, A_N, A_N + 20.0));
   CHECK(fit.sd(2) < 0.005 * fit.load.C_N_s2_per_m2);
 }
 
@@ -181,12 +187,7 @@ TEST_CASE("sessions that do not differ are doubted in one set of a hundred", "[w
 }
 
 TEST_CASE("sessions that differ make the coefficients of each heading alone as uncertain", "[fast]") {
-  tests::CoastdownStudy study;
-  study.pairs = 3;
-  study.run_force_sd_N = 1.0;
-  tests::CoastdownStudy high = study;
-  high.load.A_N += 20.0;
-  const RoadLoadFit fit = fit_study(join_sessions(study, high));
+  const RoadLoadFit fit = fit_study(make_two_levels());
   REQUIRE(fit.headings.size() == 2);
   // the mean of two sessions that scatter by 20/sqrt(2) N
   for (const auto& heading : fit.headings) CHECK(heading.estimate.sd(0) > 0.8 * 10.0);
@@ -203,7 +204,7 @@ TEST_CASE("headings that differ as in a storm are doubted", "[fast]") {
   CHECK_FALSE(has_session_warning(fit_study(tests::simulate_coastdowns(study, 1)), "nobody coasts"));
 }
 
-TEST_CASE("a session in mph is named with its unit by the fit and by regressions, and none of its runs is odd", "[fast]") {
+TEST_CASE("a session in mph is named with its unit by the fit and by traces, and none of its runs is odd", "[fast]") {
   tests::CoastdownStudy study;
   study.pairs = 4;
   study.run_force_sd_N = 3.0;
