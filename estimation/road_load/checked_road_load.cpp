@@ -15,7 +15,8 @@
 #include "estimation/road_load/recorded_wind.h"
 #include "estimation/road_load/road_force_reference.h"
 #include "estimation/road_load/road_load_doubts.h"
-#include "estimation/road_load/session_differences.h"
+#include "estimation/road_load/session_headings.h"
+#include "estimation/road_load/session_units.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {
@@ -150,7 +151,7 @@ void warn_of_signs(RoadLoadFit& fit) {
   }
 }
 
-/// Wind and slope as recorded against what the headings show; sessions in another unit.
+/// Wind and slope as recorded against what the headings show; sessions with exchanged headings or in another unit.
 void doubt_records(const CoastdownData& data, const RoadLoadFitOptions& options, RoadLoadFit& fit) {
   std::vector<RunResistance> runs;
   for (const RoadLoadPoint& point : fit.points) {
@@ -165,6 +166,7 @@ void doubt_records(const CoastdownData& data, const RoadLoadFitOptions& options,
                        doubt_session_units(data, runs, force_of_coastdowns(data))}) {
     fit.warnings.insert(fit.warnings.end(), doubts.begin(), doubts.end());
   }
+  if (auto doubt = doubt_session_headings(data, runs, mass_kg)) fit.warnings.push_back(std::move(*doubt));
 }
 
 }  // namespace

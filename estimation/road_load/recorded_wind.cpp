@@ -163,8 +163,8 @@ std::vector<std::string> list_sessions(const std::vector<RecordedAndShown>& runs
 
 /// What contradicts in the sessions, each described by `describe`.
 template <class Describe>
-std::vector<std::string> doubt_sessions(const std::vector<RecordedAndShown>& runs, const LeastError& least,
-                                        const Describe& describe) {
+std::vector<std::string> doubt_records_of_sessions(const std::vector<RecordedAndShown>& runs, const LeastError& least,
+                                                   const Describe& describe) {
   const std::vector<std::string> sessions = list_sessions(runs);
   std::vector<std::string> doubts;
   for (const std::string& session : sessions) {
@@ -192,18 +192,27 @@ std::vector<RecordedAndShown> list_winds_by_force(const CoastdownData& data, con
   return winds;
 }
 
+std::vector<ShownSlope> list_shown_slopes(const CoastdownData& data, const std::vector<RunResistance>& runs,
+                                          double mass_kg) {
+  std::vector<ShownSlope> slopes;
+  if (runs.empty()) return slopes;
+  const Eigen::Vector3d parabola = fit_parabola(runs);
+  for (const RunResistance& run : runs) {
+    const std::optional<ForceLine> line = fit_force_line(run, parabola);
+    if (!line.has_value()) continue;
+    slopes.push_back({run.run, data.runs[run.run].heading * line->at_rest_N / (mass_kg * kStandardGravity_m_s2)});
+  }
+  return slopes;
+}
+
 std::vector<RecordedAndShown> list_slopes_by_force(const CoastdownData& data, const std::vector<RunResistance>& runs,
                                                    double mass_kg, bool is_taken_off) {
   std::vector<RecordedAndShown> slopes;
-  if (runs.empty()) return slopes;
-  const Eigen::Vector3d parabola = fit_parabola(runs);
-  for (const RunResistance& of_run : runs) {
-    const CoastdownRun& run = data.runs[of_run.run];
-    const std::optional<ForceLine> line = fit_force_line(of_run, parabola);
-    if (run.conditions.slope.empty() || !line.has_value()) continue;
+  for (const ShownSlope& shown : list_shown_slopes(data, runs, mass_kg)) {
+    const CoastdownRun& run = data.runs[shown.run];
+    if (run.conditions.slope.empty()) continue;
     const double recorded = calc_mean(run.conditions.slope);
-    const double left = run.heading * line->at_rest_N / (mass_kg * kStandardGravity_m_s2);
-    slopes.push_back({run.heading, run.session, recorded, left + (is_taken_off ? recorded : 0.0)});
+    slopes.push_back({run.heading, run.session, recorded, shown.slope + (is_taken_off ? recorded : 0.0)});
   }
   return slopes;
 }
@@ -218,14 +227,14 @@ std::optional<double> find_contradiction(const std::vector<RecordedAndShown>& ru
 
 std::vector<std::string> doubt_winds(const std::vector<RecordedAndShown>& runs, const std::string& shown_by,
                                      const std::string& column) {
-  return doubt_sessions(runs, kLeastWind_m_s, [&](const Comparison& at) {
+  return doubt_records_of_sessions(runs, kLeastWind_m_s, [&](const Comparison& at) {
     return fmt::format("{} {:+.1f} m/s where {} has {:+.1f} m/s on average of both headings: {}", shown_by, at.shown,
                        column, at.recorded, guess_wind_mistake(at));
   });
 }
 
 std::vector<std::string> doubt_slopes(const std::vector<RecordedAndShown>& runs) {
-  return doubt_sessions(runs, kLeastSlope, [](const Comparison& at) {
+  return doubt_records_of_sessions(runs, kLeastSlope, [](const Comparison& at) {
     return fmt::format(
         "the headings show a slope of {:+.4f} where the column slope has {:+.4f} on average of both headings: {}",
         at.shown, at.recorded, guess_slope_mistake(at));

@@ -34,8 +34,20 @@ struct RecordedAndShown {
 std::vector<RecordedAndShown> list_winds_by_force(const CoastdownData& data, const std::vector<RunResistance>& runs,
                                                   double drag_N_s2_per_m2);
 
-/// Likewise the slope of the road: h a/(m g), a the same at standstill. Where the forces are without that of the
-/// recorded slope, this is added again.
+/// The slope of the road that the force of a run shows, positive uphill in the + heading.
+struct ShownSlope {
+  std::size_t run = 0;  // in the data
+  double slope = 0.0;
+};
+
+/// Equation  h a/(m g), a force of the run less A + B v + C v^2 of all runs, at standstill by a line over speed
+/// Symbols   h heading; m mass [kg]
+/// Validity  means over both headings alone, and runs of four speeds at least; others have none
+std::vector<ShownSlope> list_shown_slopes(const CoastdownData& data, const std::vector<RunResistance>& runs,
+                                          double mass_kg);
+
+/// The slope of each run with a recorded one, and the one that its force shows. Where the forces are without that of
+/// the recorded slope, this is added again.
 std::vector<RecordedAndShown> list_slopes_by_force(const CoastdownData& data, const std::vector<RunResistance>& runs,
                                                    double mass_kg, bool is_taken_off);
 

@@ -12,6 +12,8 @@
 
 #include "estimation/road_load/recorded_wind.h"
 #include "estimation/road_load/road_load_doubts.h"
+#include "estimation/road_load/session_differences.h"
+#include "estimation/road_load/session_headings.h"
 #include "sim/core/units.h"
 
 namespace rollrig::estimation {
@@ -230,6 +232,22 @@ void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& o
   }
 }
 
+void put_reference_result(ReferenceResult result, const std::map<int, double>& speeds_m_s,
+                          RoadLoadProcedure& procedure) {
+  procedure.warnings.insert(procedure.warnings.end(), result.warnings.begin(), result.warnings.end());
+  for (const int km_h : result.speeds) procedure.reference_speeds_m_s.push_back(speeds_m_s.at(km_h));
+  procedure.reference = std::move(result);
+}
+
+void put_used_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options,
+                         std::vector<RoadLoadCheck> wind_checks, RoadLoadProcedure& procedure) {
+  const CoastdownData used = keep_runs(data, procedure.reference.list_used_runs());
+  put_conditions(used, options, kWltpAir, procedure);
+  procedure.checks.insert(procedure.checks.end(), wind_checks.begin(), wind_checks.end());
+  procedure.wind_m_s = find_common_wind(used);
+  procedure.correction.wind_m_s = procedure.wind_m_s.value_or(0.0);
+}
+
 void finish_procedure(const RoadLoadProcedureOptions& options, RoadLoadProcedure& procedure) {
   const ReferenceResult& reference = procedure.reference;
   const double force_per_unit = procedure.tested.force_per_unit;
@@ -329,7 +347,17 @@ void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& w
   if (auto doubt = doubt_session_difference(data, deviations, SessionWinds::kInDeviations)) {
     procedure.warnings.push_back(std::move(*doubt));
   }
+  const std::vector<std::string> partial = list_partial_sessions(data, deviations);
+  if (!partial.empty()) {
+    procedure.warnings.push_back(fmt::format(
+        "one heading only in {} '{}': a wind or a slope there is in the force, which is not compared with other "
+        "sessions",
+        partial.size() == 1 ? "session" : "sessions", fmt::join(partial, "', '")));
+  }
   for (std::string& doubt : doubt_session_units(data, runs, force)) procedure.warnings.push_back(std::move(doubt));
+  if (auto doubt = doubt_session_headings(data, runs, procedure.correction.mass_kg)) {
+    procedure.warnings.push_back(std::move(*doubt));
+  }
 }
 
 AirFlow calc_air_flow(double speed_m_s, double against_m_s, double across_m_s) {

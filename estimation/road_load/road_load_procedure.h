@@ -2,6 +2,7 @@
 /// A road load by the procedure of a regulation or a standard: what all of them give.
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@
 #include "estimation/road_load/reference_conditions.h"
 #include "estimation/road_load/reference_speeds.h"
 #include "estimation/road_load/road_load_checks.h"
-#include "estimation/road_load/session_differences.h"
+#include "estimation/road_load/session_units.h"
 #include "estimation/run_checks/run_doubt.h"
 #include "include/rollrig/road_load_options.h"
 
@@ -114,10 +115,18 @@ void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& o
 void doubt_recorded_conditions(const CoastdownData& data, const std::string& column, bool has_slopes,
                                RoadLoadProcedure& procedure);
 
-/// Warns where sessions differ (doubt_session_difference(), doubt_session_units()). The points of the runs in `without`,
-/// by name, do not count.
+/// Warns where sessions differ, or cannot be compared: doubt_session_difference(), list_partial_sessions(),
+/// doubt_session_units(), doubt_session_headings(). The points of the runs in `without`, by name, do not count.
 void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, const MeasuredForce& force,
                     RoadLoadProcedure& procedure);
+
+/// The result at the reference speeds, and its warnings. `speeds_m_s` are the speeds by their reference speed in km/h.
+void put_reference_result(ReferenceResult result, const std::map<int, double>& speeds_m_s,
+                          RoadLoadProcedure& procedure);
+/// Weather of the runs that the result at the reference speeds rests on: put_conditions(), and the wind that their
+/// headings do not cancel. `wind_checks` are those of check_winds().
+void put_used_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options,
+                         std::vector<RoadLoadCheck> wind_checks, RoadLoadProcedure& procedure);
 
 /// Corrects `reference.coefficients` to the conditions of reference, with what `tested` says of force and mass, and
 /// puts both there. The contributions of the sensors are there unless the options leave them out.

@@ -1,12 +1,13 @@
 #pragma once
-/// How the sessions of coastdowns differ, and what the difference looks like.
+/// How the sessions of coastdowns differ.
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "estimation/road_load/recorded_wind.h"
+#include "estimation/road_load/coastdown_file.h"
 
 namespace rollrig::estimation {
 
@@ -36,33 +37,15 @@ enum class SessionWinds { kInDeviations, kFitted };
 /// Validity  the second s has the wind of a session in it
 /// Checked   tests/estimation/session_differences_test.cpp
 std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
-                                                  const std::map<std::size_t, double>& deviations,
-                                                  SessionWinds winds);
+                                                  const std::map<std::size_t, double>& deviations, SessionWinds winds);
+
+/// The sessions that lack a heading that another one has: compare_sessions() leaves them out.
+std::vector<std::string> list_partial_sessions(const CoastdownData& data,
+                                               const std::map<std::size_t, double>& deviations);
 
 /// A warning where that p value is below 0.01 and the standard deviation is at least 0.1 %.
 std::optional<std::string> doubt_session_difference(const CoastdownData& data,
                                                     const std::map<std::size_t, double>& deviations,
                                                     SessionWinds winds);
-
-/// Where forces over speed come from.
-struct MeasuredForce {
-  bool is_from_speeds = true;  // m dv/dt
-  std::string speed_columns;   // as files name them
-};
-
-MeasuredForce force_of_coastdowns(const CoastdownData& data);
-
-/// Sessions whose forces over speed agree with those of the others if their speeds are in another unit (mph, m/s), and
-/// do not agree as they stand.
-/// Equation  e(v) = d F_s(v)/F_o(c v) - 1, root of its mean square over the speeds that both have; c = 1: the unit of
-///           the column, c = 1.609 or 3.6: mph or m/s; where 1/c agrees instead, the others are in mph or m/s, and this
-///           session in the unit of the column
-/// Symbols   F_s, F_o parabolas through the forces of a session and of the others, by relative least squares; d = c
-///           where the force is found from the speeds (m dv/dt), d = 1 where it is measured
-/// Validity  five points and a ratio of speeds of 1.5 at least
-/// Assumed: doubted where the root is above 0.1 as it stands, and below 0.05 and a third of that in the other unit
-/// Checked   tests/estimation/session_differences_test.cpp
-std::vector<std::string> doubt_session_units(const CoastdownData& data, const std::vector<RunResistance>& runs,
-                                             const MeasuredForce& force);
 
 }  // namespace rollrig::estimation

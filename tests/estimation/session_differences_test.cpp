@@ -15,13 +15,16 @@
 #include "sim/core/units.h"
 #include "tests/support/coastdown_study.h"
 #include "tests/support/fit_study.h"
+#include "tests/support/session_study.h"
 
 using namespace rollrig;
 using estimation::CoastdownData;
-using estimation::CoastdownFile;
 using estimation::CoastdownRun;
 using estimation::RoadLoadFit;
 using estimation::RoadLoadProcedure;
+using tests::fit_checked;
+using tests::fit_traces;
+using tests::join_sessions;
 
 namespace {
 
@@ -58,16 +61,6 @@ Doubted count_doubted(int sets) {
   return doubted;
 }
 
-/// Two sessions of the same kind, one after the other.
-CoastdownData join_sessions(const tests::CoastdownStudy& first, const tests::CoastdownStudy& second) {
-  CoastdownData data = tests::simulate_coastdowns(first, 1);
-  for (auto& run : tests::simulate_coastdowns(second, 2).runs) {
-    data.runs.push_back(run);
-    data.runs.back().session = "pm";
-  }
-  return data;
-}
-
 /// Two sessions of three pairs, the second with 20 N more at all speeds.
 CoastdownData make_two_levels() {
   tests::CoastdownStudy study;
@@ -84,48 +77,9 @@ RoadLoadFit fit_study(const CoastdownData& data) {
   return estimation::fit_road_load(data, options);
 }
 
-/// Of a fit or a procedure.
-template <class T>
-bool has_session_warning(const T& fit, const std::string& text) {
-  return std::any_of(fit.warnings.begin(), fit.warnings.end(),
-                     [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
-}
-
 bool holds_both(const RoadLoadFit& fit, int coefficient, double low, double high) {
   const auto [lower, upper] = fit.interval_95(coefficient);
   return lower <= low && high <= upper;
-}
-
-CoastdownFile to_file(const CoastdownData& data) {
-  CoastdownFile file;
-  file.data = data;
-  file.is_trace = true;
-  return file;
-}
-
-RoadLoadFit fit_checked(const CoastdownData& data) {
-  estimation::RoadLoadFitOptions options;
-  options.mass_kg = tests::CoastdownStudy().mass_kg;
-  CoastdownFile file = to_file(data);
-  return estimation::fit_checked_road_load(file, options);
-}
-
-/// By SAE J1263.
-RoadLoadProcedure fit_traces(const CoastdownData& data) {
-  RoadLoadProcedureOptions options;
-  options.mass_kg = tests::CoastdownStudy().mass_kg;
-  options.rotating_mass_kg = 63.0;
-  options.kind = RoadLoadProcedureKind::kJ1263;
-  return estimation::evaluate_traces(to_file(data), options);
-}
-
-/// The speeds of a session divided by `factor`, as if they were written in another unit.
-CoastdownData with_speeds_over(CoastdownData data, const std::string& session, double factor) {
-  for (CoastdownRun& run : data.runs) {
-    if (run.session != session) continue;
-    for (double& speed_m_s : run.speed_m_s) speed_m_s /= factor;
-  }
-  return data;
 }
 
 /// Runs that scatter, twenty sessions of one pair; every other one with `factor` times the force.
@@ -162,7 +116,7 @@ TEST_CASE("sessions that differ by a share of the force: it is said, and the int
   // 1 and 1.2 times the same: a standard deviation of 0.1414 about a mean of 1.1
   CHECK(fit.scatter.session_share.value_or(0.0) == Approx(0.1414 / 1.1).epsilon(0.1));
   CHECK_FALSE(fit.scatter.session_force_N.has_value());
-  CHECK(has_session_warning(fit, "the sessions differ by a standard deviation of 12."));
+  CHECK(tests::has_warning(fit, "the sessions differ by a standard deviation of 12."));
   CHECK(holds_both(fit, 0, study.load.A_N, high.load.A_N));
   CHECK(holds_both(fit, 2, study.load.C_N_s2_per_m2, high.load.C_N_s2_per_m2));
 }
@@ -200,51 +154,8 @@ TEST_CASE("headings that differ as in a storm are doubted", "[fast]") {
     if (run.heading < 0) continue;
     for (double& time_s : run.time_s) time_s /= 4.0;
   }
-  CHECK(has_session_warning(fit_study(data), "in which nobody coasts down"));
-  CHECK_FALSE(has_session_warning(fit_study(tests::simulate_coastdowns(study, 1)), "nobody coasts"));
-}
-
-TEST_CASE("a session in mph is named with its unit by the fit and by traces, and none of its runs is odd", "[fast]") {
-  tests::CoastdownStudy study;
-  study.pairs = 4;
-  study.run_force_sd_N = 3.0;
-  study.run_wind_sd_m_s = 0.2;
-  study.from_km_h = 138.0;
-  study.to_km_h = 12.0;
-  const CoastdownData data = with_speeds_over(join_sessions(study, study), "pm", kMph_m_s * kKmhPerMs);
-  const std::string text = "if its values of speed_km_h are in mph";
-  const RoadLoadFit fit = fit_checked(data);
-  CHECK(has_session_warning(fit, "session 'pm'"));
-  CHECK(has_session_warning(fit, text));
-  CHECK(fit.doubts.empty());
-  CHECK(has_session_warning(fit_traces(data), text));
-}
-
-TEST_CASE("the one session that is not in m/s is told from the others", "[fast]") {
-  tests::CoastdownStudy study;
-  study.pairs = 2;
-  CoastdownData data = join_sessions(study, study);
-  for (CoastdownRun run : tests::simulate_coastdowns(study, 3).runs) {
-    run.session = "night";
-    data.runs.push_back(run);
-  }
-  data = with_speeds_over(with_speeds_over(data, "pm", kKmhPerMs), "night", kKmhPerMs);
-  const RoadLoadFit fit = fit_checked(data);
-  CHECK(has_session_warning(fit, "are in km/h and those of the others in m/s"));
-}
-
-TEST_CASE("a session with another shape of its road load has no odd run, and no other unit", "[fast]") {
-  for (const double shape : {0.62, 0.9, 1.4}) {
-    tests::CoastdownStudy study;
-    study.run_force_sd_N = 3.0;
-    tests::CoastdownStudy other = study;
-    other.load.A_N *= shape;
-    other.load.C_N_s2_per_m2 /= std::sqrt(shape);
-    INFO(shape);
-    const RoadLoadFit fit = fit_checked(join_sessions(study, other));
-    CHECK(fit.doubts.empty());
-    CHECK_FALSE(has_session_warning(fit, "are they?"));
-  }
+  CHECK(tests::has_warning(fit_study(data), "in which nobody coasts down"));
+  CHECK_FALSE(tests::has_warning(fit_study(tests::simulate_coastdowns(study, 1)), "nobody coasts"));
 }
 
 TEST_CASE("a braked run is named beside a session that differs", "[fast]") {
@@ -261,7 +172,7 @@ TEST_CASE("a braked run is named beside a session that differs", "[fast]") {
 }
 
 TEST_CASE("sessions of one pair are compared, by what their headings have in common", "[fast]") {
-  CHECK(has_session_warning(fit_traces(make_sessions_of_pairs(1.1, 0.3, 1)), "the sessions differ"));
+  CHECK(tests::has_warning(fit_traces(make_sessions_of_pairs(1.1, 0.3, 1)), "the sessions differ"));
 }
 
 TEST_CASE("sessions of one pair that differ by several percent always have a fit", "[slow]") {
@@ -290,7 +201,7 @@ TEST_CASE("sessions of one pair that differ by several percent always have a fit
 TEST_CASE("sessions of one pair with winds of their own do not differ", "[slow]") {
   int said = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    said += has_session_warning(fit_traces(make_sessions_of_pairs(1.0, 0.3, seed)), "the sessions differ") ? 1 : 0;
+    said += tests::has_warning(fit_traces(make_sessions_of_pairs(1.0, 0.3, seed)), "the sessions differ") ? 1 : 0;
   }
   CHECK(said <= 2);
 }
@@ -427,7 +338,7 @@ TEST_CASE("a session of one run weighs as a session, not as all the others", "[f
   const RoadLoadFit fit = fit_study(data);
   CHECK(fit.load.A_N == Approx(study.load.A_N + 85.0 / 3.0).margin(6.0));
   CHECK(fit.sd(0) > 12.0);
-  CHECK(has_session_warning(fit, "one heading only in session 'night'"));
+  CHECK(tests::has_warning(fit, "one heading only in session 'night'"));
 }
 
 TEST_CASE("traces of sessions that are headings have a result, and it is said what its intervals lack", "[fast]") {
@@ -437,7 +348,7 @@ TEST_CASE("traces of sessions that are headings have a result, and it is said wh
   CoastdownData data = tests::simulate_coastdowns(study, 1);
   for (CoastdownRun& run : data.runs) run.session = run.heading > 0 ? "am" : "pm";
   const RoadLoadProcedure found = fit_traces(data);
-  CHECK(has_session_warning(found, "how sessions differ is not in the intervals"));
+  CHECK(tests::has_warning(found, "how sessions differ is not in the intervals"));
   CHECK(found.road_load(2) == Approx(study.load.C_N_s2_per_m2).epsilon(0.25));  // J1263 has no term of B
 }
 
@@ -463,32 +374,6 @@ TEST_CASE("the scatter between sessions of traces is a force or a share, as made
   CHECK(find(by_share, "session_to_session_N") == 0.0);
   // 0.2 km/h moves forces by less than 2 %, not by the difference of two models of the sessions
   for (const auto& sensor : by_share.sensors) CHECK(std::abs(sensor.change(0)) < 0.02 * study.load.A_N);
-}
-
-TEST_CASE("exchanged headings of a session do not make its runs odd", "[fast]") {
-  tests::CoastdownStudy study;
-  study.pairs = 4;
-  study.run_force_sd_N = 3.0;
-  study.slope = 0.003;
-  CoastdownData data = join_sessions(study, study);
-  for (CoastdownRun run : tests::simulate_coastdowns(study, 3).runs) {
-    run.session = "night";
-    run.heading = -run.heading;
-    data.runs.push_back(run);
-  }
-  CHECK(fit_checked(data).doubts.empty());
-}
-
-TEST_CASE("a session of runs in one heading is named with its unit, too", "[fast]") {
-  tests::CoastdownStudy study;
-  study.pairs = 4;
-  CoastdownData data = join_sessions(study, study);
-  std::vector<CoastdownRun> one_way;
-  for (const CoastdownRun& run : data.runs) {
-    if (run.heading > 0) one_way.push_back(run);
-  }
-  data.runs = one_way;
-  CHECK(has_session_warning(fit_checked(with_speeds_over(data, "pm", kMph_m_s * kKmhPerMs)), "are in mph"));
 }
 
 TEST_CASE("the session that is farthest from the others is named, with its sign", "[fast]") {
