@@ -35,10 +35,10 @@ struct PairedRuns {
   std::vector<std::size_t> alone;    // runs without a partner
 };
 
-/// Pairs the runs that go together, session by session: in their order, no pair across another one, as many as possible, and partners as
-/// near in the order as possible. So runs in turn are paired with their neighbors, also where one is missing, and the
-/// n-th of one heading with the n-th of the other where one heading was driven after the other. Runs without a heading
-/// or without a reference speed are not looked at.
+/// Pairs the runs that go together, session by session: in their order, no pair across another one, as many as
+/// possible, and partners as near in the order as possible. So runs in turn are paired with their neighbors, also where
+/// one is missing, and the n-th of one heading with the n-th of the other where one heading was driven after the other.
+/// Runs without a heading or without a reference speed are not looked at.
 ///
 /// Two runs go together if more than two thirds of the reference speeds of the one that has fewer are in both: the ends
 /// of runs scatter, and a run may begin late, but the parts of a split test have little in common. The pairs fall into

@@ -100,6 +100,21 @@ class PairTable {
     return sum / static_cast<double>(pairs.size());
   }
 
+  /// How much more resistance a run has than the others of its heading and part whose pairs count, as a share and mean
+  /// over the speeds of its pair; 0 where there is no other.
+  double deviation_of_run(const ReferencePair& pair, std::size_t ReferencePair::*run) const {
+    std::vector<double> deviations;
+    for (const int speed : pair.speeds) {
+      std::vector<double> others;
+      for (const ReferencePair* other : list(speed, pair.part)) {
+        others.push_back(rule_.resistance(runs_[other->*run].values.at(speed)));
+      }
+      if (others.empty()) continue;
+      deviations.push_back(rule_.resistance(runs_[pair.*run].values.at(speed)) / calc_mean(others) - 1.0);
+    }
+    return deviations.empty() ? 0.0 : calc_mean(deviations);
+  }
+
   /// Rejects pairs until each speed has its precision, as far as that is allowed; gives those that it rejects.
   std::vector<const ReferencePair*> reject(const std::vector<int>& speeds) {
     const std::size_t most = pairs_.size() / 3;
@@ -198,11 +213,10 @@ void fit_coefficients(const PairTable& table, const std::map<int, double>& speed
   for (const auto& [session, sum] : of_sessions) result.covariance += factor * sum * sum.transpose();
   result.freedom.setConstant(sessions - 1.0);
   result.has_session_scatter = true;
-  result.warnings.push_back(
-      fmt::format("the pairs differ more from session to session than within sessions: the intervals have a part for "
-                  "it, with {} of freedom{}",
-                  format_count(of_sessions.size() - 1, "degree"),
-                  of_sessions.size() == 2 ? ", so that they are wide" : ""));
+  result.warnings.push_back(fmt::format(
+      "the pairs differ more from session to session than within sessions: the intervals have a part for "
+      "it, with {} of freedom{}",
+      format_count(of_sessions.size() - 1, "degree"), of_sessions.size() == 2 ? ", so that they are wide" : ""));
 }
 
 /// Pairs with a run whose wind is above the limits.
@@ -266,10 +280,23 @@ std::vector<ReferencePair> keep_used_speeds(const std::vector<ReferenceRun>& run
   return kept;
 }
 
+/// Which run of a rejected pair is the cause, where the other one is like the rest; empty where both differ.
+std::string find_odd_run_of(const std::vector<ReferenceRun>& runs, const PairTable& table, const ReferencePair& pair) {
+  constexpr double kClearly = 3.0;
+  const double plus = table.deviation_of_run(pair, &ReferencePair::plus);
+  const double minus = table.deviation_of_run(pair, &ReferencePair::minus);
+  const bool is_plus = std::abs(plus) > kClearly * std::abs(minus);
+  if (!is_plus && !(std::abs(minus) > kClearly * std::abs(plus))) return "";
+  const double odd = is_plus ? plus : minus;
+  return fmt::format("; run {} has {:.0f} % {} resistance than the others of its heading",
+                     runs[is_plus ? pair.plus : pair.minus].name, 100.0 * std::abs(odd), odd > 0.0 ? "more" : "less");
+}
+
 /// Warns of rejected pairs. `imprecise` are those that reject() rejected, in its order: where they are all pairs of
 /// a session, it is the session that differs.
-void report_rejected(const std::vector<ReferenceRun>& runs, const std::vector<ReferencePair>& pairs,
-                     const std::vector<const ReferencePair*>& imprecise, std::vector<std::string>& warnings) {
+void report_rejected(const std::vector<ReferenceRun>& runs, const PairTable& table,
+                     const std::vector<ReferencePair>& pairs, const std::vector<const ReferencePair*>& imprecise,
+                     std::vector<std::string>& warnings) {
   const auto is_imprecise = [&imprecise](const ReferencePair& pair) {
     return std::find(imprecise.begin(), imprecise.end(), &pair) != imprecise.end();
   };
@@ -283,12 +310,14 @@ void report_rejected(const std::vector<ReferenceRun>& runs, const std::vector<Re
     if (pair.rejected.empty()) continue;
     std::string text = fmt::format("the pair of runs {} and {} is rejected: {}", runs[pair.plus].name,
                                    runs[pair.minus].name, pair.rejected);
+    if (is_imprecise(pair)) text += find_odd_run_of(runs, table, pair);
     const std::string& session = runs[pair.plus].session;
     const auto rejected = count_of(session, false);
     if (is_imprecise(pair) && rejected > 1 && rejected == count_of(session, true) && said.insert(session).second) {
-      text += fmt::format("; all {} pairs of session '{}' are rejected: were its conditions and its calibration those "
-                          "of the other sessions?",
-                          rejected, session);
+      text += fmt::format(
+          "; all {} pairs of session '{}' are rejected: were its conditions and its calibration those "
+          "of the other sessions?",
+          rejected, session);
     }
     warnings.push_back(std::move(text));
   }
@@ -343,7 +372,7 @@ ReferenceResult evaluate_reference_runs(const std::vector<ReferenceRun>& runs, c
   result.pairs = keep_used_speeds(runs, paired.pairs, result.speeds, result.warnings);
   PairTable table(runs, rule, result.pairs);
   const std::vector<const ReferencePair*> imprecise = table.reject(result.speeds);
-  report_rejected(runs, result.pairs, imprecise, result.warnings);
+  report_rejected(runs, table, result.pairs, imprecise, result.warnings);
   for (const int speed : result.speeds) result.precisions.push_back(calc_precision(table.values(speed)));
   find_overlaps(table, result);
   fit_coefficients(table, speeds_m_s, result);

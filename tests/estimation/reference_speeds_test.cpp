@@ -104,6 +104,14 @@ TEST_CASE("reference speeds: the pair that is far off is rejected, and at most a
   CHECK(three.warnings.empty());
 }
 
+TEST_CASE("reference speeds: of a rejected pair, the run that was braked is named", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.001, -0.002, 0.002, 0.0, -0.001, 0.0});
+  for (auto& [km_h, value] : runs[7].values) value *= 1.3;  // run 8: the - run of the fourth pair
+  const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings.front(), Contains("runs 7 and 8") && Contains("; run 8 has 30 % more resistance"));
+}
+
 TEST_CASE("reference speeds: split runs are paired part by part", "[fast]") {
   std::vector<ReferenceRun> runs = make_reference_runs({0.0, 0.0, 0.0});
   std::vector<ReferenceRun> low = make_reference_runs({0.02, 0.02, 0.02, 0.02});
