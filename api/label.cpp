@@ -29,27 +29,25 @@ models::TireClass read_label_class(const std::string& name) {
   throw InputError(problem);
 }
 
-std::string read_label_symbol(const std::string& text) {
-  const std::string symbol = boost::algorithm::to_upper_copy(text);
-  if (symbol.empty() || models::find_symbol_speed_km_h(symbol).has_value()) return symbol;
-  throw InputError({fmt::format("'{}' is not a speed symbol", text), "command line", 0, "--speed-symbol", text,
-                    fmt::format("one of {}", fmt::join(models::list_speed_symbols(), " ")), ""});
-}
-
 /// Throws InputError where a mark that is given is not that of the tire's file.
-void require_own_mark(const models::TireFile& tire, const char* option, const std::string& mark,
-                      const std::string& own, const std::string& given) {
+void require_own_mark(const models::TireFile& tire, const char* option, const std::string& mark, const std::string& own,
+                      const std::string& given) {
   if (own == given) return;
-  throw InputError({fmt::format("tire '{}' has {} {} by its file, not {}", tire.name, mark, own, given),
-                    "command line", 0, option, given, fmt::format("{}, or no {}", own, option), ""});
+  throw InputError({fmt::format("tire '{}' has {} {} by its file, not {}", tire.name, mark, own, given), "command line",
+                    0, option, given, fmt::format("{}, or no {}", own, option), ""});
 }
 
 /// The tire's own marks, and those that are given where its file has none.
 models::ServiceDescription merge_service(const LabelInput& input, const std::optional<models::TireFile>& tire) {
   models::ServiceDescription service;
   if (tire.has_value() && tire->service.has_value()) service = *tire->service;
-  if (!input.load_index.empty()) service.load_index = scenarios::parse_load_index(input.load_index);
-  if (!input.speed_symbol.empty()) service.speed_symbol = read_label_symbol(input.speed_symbol);
+  scenarios::ServiceMark mark;
+  if (!input.load_index.empty()) {
+    mark = scenarios::parse_service_mark(input.load_index);
+    service.load_index = mark.load_index;
+  }
+  const std::string given = scenarios::choose_speed_symbol(input.speed_symbol, mark);
+  if (!given.empty()) service.speed_symbol = given;
   if (tire.has_value() && tire->service.has_value()) {
     const models::ServiceDescription& own = *tire->service;
     require_own_mark(*tire, "--load-index", "load index", fmt::format("{}", own.load_index),

@@ -15,7 +15,7 @@ struct LabelInput {
   std::optional<double> rrc_N_per_kN;     // of ISO 28580; absent: by the simulated test of the tire
   std::optional<double> rrc_sd_N_per_kN;  // its standard uncertainty; absent: the preferred limit of sigma_m
   std::string tire_class;                 // "C1", "C2" or "C3"; empty: that of the tire, or of a load index from 122
-  std::string load_index;                 // "91"; checked against the class
+  std::string load_index;                 // "91" or "91V"; checked against the class
   std::string speed_symbol;               // "V"; likewise
   bool is_severe_snow = false;            // for severe snow conditions; limits are then 1 N/kN higher
   std::string tire;                       // name of an asset, or a path

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
 #include "estimation/loss_conversion.h"
@@ -206,13 +205,10 @@ void set_law(const NewTireOptions& options, const ClassValues& values, ClassTire
 void set_service(const NewTireOptions& options, const TireSize& size, const std::string& load_index, ClassTire& made) {
   models::ServiceDescription service;
   service.tire_class = *models::find_class_named(made.tire_class);
-  service.load_index = parse_load_index(load_index);
-  std::string symbol = options.speed_symbol.empty() ? size.speed_symbol : options.speed_symbol;
-  boost::algorithm::to_upper(symbol);
-  if (!symbol.empty() && !models::find_symbol_speed_km_h(symbol).has_value()) {
-    throw InputError({fmt::format("'{}' is not a speed symbol", symbol), "command line", 0, "--speed-symbol", symbol,
-                      fmt::format("one of {}", fmt::join(models::list_speed_symbols(), " ")), ""});
-  }
+  const ServiceMark mark = parse_service_mark(load_index);
+  service.load_index = mark.load_index;
+  std::string symbol = choose_speed_symbol(options.speed_symbol, mark);
+  if (symbol.empty()) symbol = size.speed_symbol;
   service.speed_symbol = symbol;
   service.is_reinforced = options.is_reinforced && service.tire_class == models::TireClass::kC1;
   if (options.pressure_kPa.has_value()) service.maximum_load_pressure_Pa = 1e3 * *options.pressure_kPa;
@@ -347,8 +343,8 @@ ClassTire make_class_tire(const NewTireOptions& given) {
   require_plain_name(options.name);
   ClassTire made;
   made.load_capacity_N = find_load_capacity_N(load_index);
-  made.tire_class =
-      options.tire_class.empty() ? find_tire_class(size, parse_load_index(load_index)) : options.tire_class;
+  made.tire_class = options.tire_class.empty() ? find_tire_class(size, parse_service_mark(load_index).load_index)
+                                               : options.tire_class;
   made.class_reason = options.tire_class.empty() ? "guessed from size and load index" : "given";
   const ClassValues& values = find_class(made.tire_class);
   const double pressure_kPa = find_iso_pressure_kPa(options, made.tire_class);

@@ -82,6 +82,13 @@ std::optional<WrittenSize> split_size(const std::string& text) {
   return size;
 }
 
+/// Throws InputError where a symbol is there that is none; `text` is what the option has.
+void require_speed_symbol(const std::string& symbol, const char* option, const std::string& text) {
+  if (symbol.empty() || models::find_symbol_speed_km_h(symbol).has_value()) return;
+  throw InputError({fmt::format("'{}' is not a speed symbol", symbol), "command line", 0, option, text,
+                    fmt::format("one of {}", fmt::join(models::list_speed_symbols(), " ")), ""});
+}
+
 }  // namespace
 
 TireSize parse_tire_size(const std::string& text) {
@@ -105,23 +112,37 @@ TireSize parse_tire_size(const std::string& text) {
   return size;
 }
 
-int parse_load_index(const std::string& load_index) {
-  TextCursor cursor(load_index);
+ServiceMark parse_service_mark(const std::string& text) {
+  TextCursor cursor(text);
   cursor.skip_blanks();
   const auto written = take_load_index(cursor);
   cursor.skip_blanks();
-  cursor.take_letters(1, 1);  // of the speed
+  ServiceMark mark;
+  mark.speed_symbol = boost::algorithm::to_upper_copy(cursor.take_letters(1, 1).value_or(""));
   cursor.skip_blanks();
-  const int index = written.has_value() && cursor.at_end() ? std::stoi(*written) : 0;  // the first of two
-  if (models::find_load_of_index_kg(index).has_value()) return index;
-  throw InputError({fmt::format("'{}' is no load index", load_index), "command line", 0, "--load-index", load_index,
+  mark.load_index = written.has_value() && cursor.at_end() ? std::stoi(*written) : 0;  // the first of two
+  if (models::find_load_of_index_kg(mark.load_index).has_value()) {
+    require_speed_symbol(mark.speed_symbol, "--load-index", text);
+    return mark;
+  }
+  throw InputError({fmt::format("'{}' is no load index", text), "command line", 0, "--load-index", text,
                     fmt::format("a number from {} to {}, as on the sidewall behind the size", models::kLowestLoadIndex,
                                 models::kHighestLoadIndex),
                     ""});
 }
 
+std::string choose_speed_symbol(const std::string& given, const ServiceMark& mark) {
+  const std::string symbol = boost::algorithm::to_upper_copy(given);
+  require_speed_symbol(symbol, "--speed-symbol", given);
+  if (symbol.empty()) return mark.speed_symbol;
+  if (mark.speed_symbol.empty() || mark.speed_symbol == symbol) return symbol;
+  throw InputError({fmt::format("the load index {} comes with the speed symbol {}", mark.load_index, mark.speed_symbol),
+                    "command line", 0, "--speed-symbol", given, "the same symbol, or one of both options without it",
+                    ""});
+}
+
 double find_load_capacity_N(const std::string& load_index) {
-  return models::find_load_of_index_kg(parse_load_index(load_index)).value_or(0.0) * kStandardGravity_m_s2;
+  return models::find_load_of_index_kg(parse_service_mark(load_index).load_index).value_or(0.0) * kStandardGravity_m_s2;
 }
 
 std::string find_tire_class(const TireSize& size, int load_index) {

@@ -28,8 +28,20 @@ TireSize parse_tire_size(const std::string& text);
 /// Source    UN Regulation No. 54, Annex 4
 double find_load_capacity_N(const std::string& load_index);
 
-/// The number of a load index. Throws InputError.
-int parse_load_index(const std::string& load_index);
+/// What the sidewall has behind the size.
+struct ServiceMark {
+  int load_index = 0;
+  std::string speed_symbol;  // empty where it is not there
+};
+
+/// Load index, with or without speed symbol: "91", "91V", "156/150 L".
+/// Errors   InputError: no load index, or a letter behind it that is no speed symbol
+/// Checked  tests/scenarios/scaffold_test.cpp, tests/api/label_test.cpp
+ServiceMark parse_service_mark(const std::string& text);
+
+/// The speed symbol that is given by itself, else that of the mark. Throws InputError where both are there and differ,
+/// or where it is not a speed symbol.
+std::string choose_speed_symbol(const std::string& given, const ServiceMark& mark);
 
 /// Class of UN Regulation No. 117, paragraph 2.4: "C1", "C2" or "C3". Assumed: a size without the mark C or LT is of C1
 /// up to index 121; the regulation also asks for the speed symbol.

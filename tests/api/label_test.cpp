@@ -113,6 +113,21 @@ TEST_CASE("class C3 with a load index below 122 is doubted where no speed symbol
   CHECK(make_label(input).warnings.size() == 1);
 }
 
+TEST_CASE("a speed symbol may stand behind the load index, as on the sidewall", "[fast]") {
+  LabelInput input = make_label_input(5.0, "C3");
+  input.load_index = "118/116 R";  // class C3 needs a symbol up to M with it
+  CHECK(find_refused_label(input) == "--class");
+  input.load_index = "118/116m";
+  CHECK(make_label(input).warnings.empty());
+  input.speed_symbol = "M";
+  CHECK(make_label(input).warnings.empty());
+  input.speed_symbol = "L";
+  CHECK(find_refused_label(input) == "--speed-symbol");
+  input = make_label_input(8.4, "C1");
+  input.load_index = "91O";
+  CHECK(find_refused_label(input) == "--load-index");
+}
+
 TEST_CASE("a load index or speed symbol that is not the one of the tire's file is refused", "[fast]") {
   LabelInput input;
   input.tire = "c1_205_55r16";
