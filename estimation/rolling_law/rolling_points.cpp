@@ -33,8 +33,25 @@ const Field kLoad{"load_N", between(100.0, 100000.0), "Load on the tire"};
 const Field kPressure{"pressure_kPa", between(50.0, 1500.0), "Gauge pressure"};
 const Field kForce{"rolling_resistance_N", {0.0, 5000.0, true, false}, "Rolling resistance"};
 
+/// Throws InputError where the pressures look as if they were in bar or psi.
+void require_pressures_in_kPa(const CsvTable& table, const std::string& path) {
+  constexpr double kMost_bar = 15.0, kMost_psi = 50.0;  // Assumed: lower ones in kPa are those of no tire on a rig
+  const std::vector<double> pressures_Pa = table.numbers({kPressure.key, any_number(), kPressure.doc});
+  if (pressures_Pa.empty()) return;
+  std::vector<double> sorted = pressures_Pa;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double median = *middle / 1e3;  // as it stands in the file
+  if (median <= 0.0 || median >= kMost_psi) return;
+  throw InputError({fmt::format("the pressures, {:g} on the median, are too low for tires in kPa: are they in {}?",
+                                median, median < kMost_bar ? "bar" : "psi"),
+                    path, table.line_of(0), kPressure.key, fmt::format("{:g}", pressures_Pa.front() / 1e3),
+                    kPressure.range.to_string() + ", gauge", ""});
+}
+
 RollingTest read_csv_points(const std::string& path) {
   const CsvTable table = CsvTable::read(path);
+  require_pressures_in_kPa(table, path);
   const std::vector<double> speed_m_s = table.numbers(kSpeed);
   const std::vector<double> load_N = table.numbers(kLoad);
   const std::vector<double> pressure_Pa = table.numbers(kPressure);
@@ -212,6 +229,13 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
                     "force in lbf and not in N?",
                     1e3 * coefficient));
   }
+  constexpr double kWorst = 15e-3;  // Assumed: the worst warm tires have 15 N/kN
+  if (coefficient > kWorst) {
+    doubts.push_back(fmt::format(
+        "rolling resistance over load is {:.3g} N/kN (median), more than that of warm tires, 4 to 15: is the "
+        "force that of two tires, or the load in kgf or lbf and not in N?",
+        1e3 * coefficient));
+  }
   if (const auto doubt = doubt_area(points)) doubts.push_back(*doubt);
   if (const auto doubt = doubt_copies(points)) doubts.push_back(*doubt);
   for (const std::string& doubt : doubt_trends(points)) doubts.push_back(doubt);
@@ -228,7 +252,8 @@ struct Trends {
 };
 
 /// Logarithms of one quantity less their mean; nothing where the points have one level of it.
-std::optional<Eigen::VectorXd> center_logarithms(const std::vector<RollingPoint>& points, double RollingPoint::*member) {
+std::optional<Eigen::VectorXd> center_logarithms(const std::vector<RollingPoint>& points,
+                                                 double RollingPoint::*member) {
   std::vector<double> values;
   for (const RollingPoint& point : points) values.push_back(point.*member);
   if (count_levels(values) < 2) return std::nullopt;
@@ -292,16 +317,16 @@ std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points) {
   std::vector<std::string> doubts;
   const Trends trends = find_trends(points);
   if (trends.alpha.value_or(0.0) > kMostAlpha) {
-    doubts.push_back(
-        fmt::format("rolling resistance rises with pressure (to the power {:.2g}), where that of tires on a hard surface "
-                    "falls: are pressures exchanged between points?",
-                    *trends.alpha));
+    doubts.push_back(fmt::format(
+        "rolling resistance rises with pressure (to the power {:.2g}), where that of tires on a hard surface "
+        "falls: are pressures exchanged between points?",
+        *trends.alpha));
   }
   if (trends.alpha.value_or(0.0) + trends.alpha_reach < kLeastAlpha) {
-    doubts.push_back(
-        fmt::format("rolling resistance goes with pressure to the power {:.2g}, where tests of tires found -0.3 to -0.5: "
-                    "are the pressures absolute and not gauge, {:.0f} kPa too high?",
-                    *trends.alpha, kStandardAtmosphere_Pa / 1e3));
+    doubts.push_back(fmt::format(
+        "rolling resistance goes with pressure to the power {:.2g}, where tests of tires found -0.3 to -0.5: "
+        "are the pressures absolute and not gauge, {:.0f} kPa too high?",
+        *trends.alpha, kStandardAtmosphere_Pa / 1e3));
   }
   const double beta = trends.beta.value_or(1.0);
   if (beta < kLeastBeta || beta > kMostBeta) {
@@ -311,9 +336,8 @@ std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points) {
         beta, beta < kLeastBeta ? "is the parasitic loss not subtracted, which does not depend on load, or " : ""));
   }
   if (trends.change.value_or(0.0) >= -kMostFall) return doubts;
-  const auto [slow, fast] = std::minmax_element(points.begin(), points.end(), [](const auto& one, const auto& other) {
-    return one.speed_m_s < other.speed_m_s;
-  });
+  const auto [slow, fast] = std::minmax_element(
+      points.begin(), points.end(), [](const auto& one, const auto& other) { return one.speed_m_s < other.speed_m_s; });
   doubts.push_back(
       fmt::format("rolling resistance falls by some {:.0f} % from {:.0f} to {:.0f} km/h: in a coastdown the tire stays "
                   "warm, and it rises. Are the speeds in the order of the points?",

@@ -59,7 +59,7 @@ RollingTest read_rolling_test(const std::string& path, PressureTaken taken = Pre
 /// in another unit, such as kgf.
 void require_plausible_coefficient(const std::string& path, const std::vector<RollingPoint>& points);
 
-/// Doubts that hold for each of the fits: units of force, load and pressure, points that are copies of others, and what
+/// Doubts that hold for each of the fits: units of force, load and pressure, the force of two tires, points that are copies of others, and what
 /// doubt_trends() finds.
 std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points);
 

@@ -222,6 +222,15 @@ TEST_CASE("loads and forces that are both in lbf are doubted aloud", "[fast]") {
   CHECK_THAT(estimation::doubt_points(points)[0], Catch::Contains("lbf or kg"));
 }
 
+TEST_CASE("the force of two tires over the load of one is doubted aloud", "[fast]") {
+  std::vector<RollingPoint> points = make_points();
+  for (RollingPoint& point : points) point.force_N = 8e-3 * point.load_N;
+  CHECK(estimation::doubt_points(points).empty());
+  for (RollingPoint& point : points) point.force_N *= 2.0;
+  REQUIRE(estimation::doubt_points(points).size() == 1);
+  CHECK_THAT(estimation::doubt_points(points)[0], Catch::Contains("16 N/kN") && Catch::Contains("two tires"));
+}
+
 TEST_CASE("points that were copied are doubted aloud, a few that agree by chance are not", "[fast]") {
   std::vector<RollingPoint> points = make_points();
   points[3].force_N = std::round(10.0 * points[3].force_N) / 10.0;  // N, as a coarse display shows it
@@ -284,7 +293,8 @@ TEST_CASE("values that stand in the wrong rows are doubted, whatever law is fitt
   CHECK(estimation::doubt_trends(points).empty());  // they do not decide it
 }
 
-TEST_CASE("pressures that are absolute are doubted by the base pressure, or by how the force goes with them", "[fast]") {
+TEST_CASE("pressures that are absolute are doubted by the base pressure, or by how the force goes with them",
+          "[fast]") {
   std::vector<RollingPoint> points = make_points();
   CHECK(estimation::doubt_tire_limits(points, 6570.0, 240e3).empty());
   CHECK(estimation::doubt_tire_limits(points, std::nullopt, std::nullopt).empty());
@@ -322,12 +332,12 @@ std::vector<RollingPoint> make_points_of_some_tire(std::uint64_t seed, double of
   const auto between = [&random](double low, double high) { return low + (high - low) * random.uniform(); };
   const double maximum_N = between(4500.0, 9000.0), base_kPa = between(230.0, 290.0);
   const J2452Law law{between(-0.5, -0.25), between(0.8, 1.1), 1.0, between(0.0, 2.5e-3), between(0.0, 8e-6)};
-  const double level = between(5.5e-3, 11e-3) * 0.7 * maximum_N /
-                       law.calc_force_N(1e3 * (base_kPa + 20.0), 0.7 * maximum_N, 80.0 / 3.6);
+  const double level =
+      between(5.5e-3, 11e-3) * 0.7 * maximum_N / law.calc_force_N(1e3 * (base_kPa + 20.0), 0.7 * maximum_N, 80.0 / 3.6);
   const double noise_N = between(0.03, 0.3);
   std::vector<RollingPoint> points;
-  for (const auto& [share, above_kPa] :
-       {std::pair(0.3, 10.0), std::pair(0.6, -40.0), std::pair(0.9, 60.0), std::pair(0.9, -40.0), std::pair(0.3, 60.0)}) {
+  for (const auto& [share, above_kPa] : {std::pair(0.3, 10.0), std::pair(0.6, -40.0), std::pair(0.9, 60.0),
+                                         std::pair(0.9, -40.0), std::pair(0.3, 60.0)}) {
     for (const double km_h : {115.0, 95.0, 75.0, 55.0, 35.0, 15.0}) {
       RollingPoint point{km_h / 3.6, share * maximum_N, 1e3 * (base_kPa + above_kPa), 0.0};
       point.force_N = level * law.calc_force_N(point.pressure_Pa, point.load_N, point.speed_m_s) + offset_N +
