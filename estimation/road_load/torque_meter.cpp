@@ -357,6 +357,63 @@ void select_torque_runs(const RoadLoadProcedureOptions& options, const std::vect
                     "a session of the file, and runs that stay", ""});
 }
 
+/// The mean torques of the runs at their reference speeds.
+struct ReferenceTorques {
+  std::vector<ReferenceRun> runs;
+  std::vector<MeanTorque> means;     // of the measurements of the file
+  std::map<int, double> speeds_m_s;  // mean over the runs, by the reference speed in km/h
+};
+
+/// Speeds outside of those of the options are not used.
+ReferenceTorques find_reference_torques(const TorqueFile& file, const RoadLoadProcedureOptions& options,
+                                        double effective_mass_kg, double radius_m) {
+  ReferenceTorques torques;
+  const std::vector<double> positions = find_positions(file.runs);
+  for (const CoastdownRun& run : file.runs.runs) {
+    torques.runs.push_back({name_of_run(run, file.runs), run.session, run.heading, {}, positions[torques.runs.size()]});
+  }
+  std::map<int, std::vector<double>> speeds_m_s;
+  for (const TorqueMeasurement& at : file.measurements) {
+    torques.means.push_back(calc_mean_torque(at, effective_mass_kg, radius_m));
+    const double reference_m_s = at.reference_km_h / kKmhPerMs;
+    if (reference_m_s < options.speed_from_m_s || reference_m_s > options.speed_to_m_s) continue;
+    torques.runs[at.run].values[at.reference_km_h] = torques.means.back().torque_Nm;
+    speeds_m_s[at.reference_km_h].push_back(torques.means.back().speed_m_s);
+  }
+  for (const auto& [km_h, values_m_s] : speeds_m_s) torques.speeds_m_s[km_h] = calc_mean(values_m_s);
+  return torques;
+}
+
+/// Names of the runs, and a point for each of their torques.
+void put_torque_points(const TorqueFile& file, const ReferenceTorques& torques, RoadLoadProcedure& procedure) {
+  for (const ReferenceRun& run : torques.runs) procedure.run_names.push_back(run.name);
+  for (std::size_t i = 0; i < file.measurements.size(); ++i) {
+    const TorqueMeasurement& at = file.measurements[i];
+    const ReferenceRun& run = torques.runs[at.run];
+    if (run.values.count(at.reference_km_h) == 0) continue;
+    procedure.points.push_back({run.name, run.heading, torques.means[i].speed_m_s, torques.means[i].torque_Nm, 0.0});
+  }
+}
+
+/// What torques are to forces, and the sensors that they come from.
+void put_torque_scale(const DynamicRadius& radius, const std::vector<MeanTorque>& means, TestedRoadLoad& tested) {
+  tested.in_proportion_to_mass = false;
+  tested.force_per_unit = kDrivelineFactor / radius.radius_m;
+  tested.radius_speed_m_s = radius.speed_m_s;
+  tested.wheel_speed_Hz = radius.wheel_speed_Hz;
+  for (const MeanTorque& mean : means) tested.most_torque_Nm = std::max(tested.most_torque_Nm, mean.torque_Nm);
+}
+
+void doubt_torques(const TorqueFile& file, const std::vector<std::string>& windy, RoadLoadProcedure& procedure) {
+  doubt_units(procedure);
+  doubt_sessions(file.runs, windy, {false, "reference_km_h and speed_km_h"}, procedure);
+  doubt_recorded_conditions(file.runs, "wind_m_s", false, procedure);
+  const models::RoadLoad<double> load{procedure.road_load(0), procedure.road_load(1), procedure.road_load(2)};
+  if (const auto doubt = doubt_torque_scale(load, procedure.correction.mass_kg, procedure.wheel_radius_m)) {
+    procedure.warnings.push_back(*doubt);
+  }
+}
+
 }  // namespace
 
 RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadProcedureOptions& options,
@@ -374,55 +431,19 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   const DynamicRadius radius = find_wheel_radius(path, file, options, procedure.warnings);
   procedure.wheel_radius_m = radius.radius_m;
   const double effective_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
-  std::vector<MeanTorque> means;
-  std::vector<ReferenceRun> runs;
-  const std::vector<double> positions = find_positions(file.runs);
-  for (const CoastdownRun& run : file.runs.runs) {
-    runs.push_back({name_of_run(run, file.runs), run.session, run.heading, {}, positions[runs.size()]});
-    procedure.run_names.push_back(runs.back().name);
-  }
-  std::map<int, std::pair<double, int>> sums;  // of the mean speeds
-  for (const TorqueMeasurement& at : file.measurements) {
-    means.push_back(calc_mean_torque(at, effective_kg, procedure.wheel_radius_m));
-    const double reference_m_s = at.reference_km_h / kKmhPerMs;
-    if (reference_m_s < options.speed_from_m_s || reference_m_s > options.speed_to_m_s) continue;
-    runs[at.run].values[at.reference_km_h] = means.back().torque_Nm;
-    sums[at.reference_km_h].first += means.back().speed_m_s;
-    ++sums[at.reference_km_h].second;
-    procedure.points.push_back(
-        {runs[at.run].name, runs[at.run].heading, means.back().speed_m_s, means.back().torque_Nm, 0.0});
-  }
-  require_driving_torques(path, file, means);
-  std::map<int, double> speeds_m_s;
-  for (const auto& [km_h, sum] : sums) speeds_m_s[km_h] = sum.first / sum.second;
-  const PairRule rule{false, 1.0, "torques"};
-  procedure.reference = evaluate_reference_runs(runs, speeds_m_s, rule, windy);
-  const CoastdownData used = keep_runs(file.runs, procedure.reference.list_used_runs());
-  put_conditions(used, options, kWltpAir, procedure);
-  procedure.checks.insert(procedure.checks.end(), wind_checks.begin(), wind_checks.end());
-  procedure.wind_m_s = find_common_wind(used);
-  procedure.correction.wind_m_s = procedure.wind_m_s.value_or(0.0);
-  for (const int km_h : procedure.reference.speeds) procedure.reference_speeds_m_s.push_back(speeds_m_s.at(km_h));
-  procedure.warnings.insert(procedure.warnings.end(), procedure.reference.warnings.begin(),
-                            procedure.reference.warnings.end());
-  check_measurements(file, means, procedure);
+  const ReferenceTorques torques = find_reference_torques(file, options, effective_kg, radius.radius_m);
+  require_driving_torques(path, file, torques.means);
+  put_torque_points(file, torques, procedure);
+  put_reference_result(evaluate_reference_runs(torques.runs, torques.speeds_m_s, {false, 1.0, "torques"}, windy),
+                       torques.speeds_m_s, procedure);
+  put_used_conditions(file.runs, options, std::move(wind_checks), procedure);
+  check_measurements(file, torques.means, procedure);
   check_reference_speeds(procedure);
   check_reference_precision(procedure);
-  TestedRoadLoad& tested = procedure.tested;
-  tested.in_proportion_to_mass = false;
-  tested.force_per_unit = kDrivelineFactor / radius.radius_m;
-  tested.radius_speed_m_s = radius.speed_m_s;
-  tested.wheel_speed_Hz = radius.wheel_speed_Hz;
-  for (const MeanTorque& mean : means) tested.most_torque_Nm = std::max(tested.most_torque_Nm, mean.torque_Nm);
+  put_torque_scale(radius, torques.means, procedure.tested);
   finish_procedure(options, procedure);
   put_fitted(procedure);
-  doubt_units(procedure);
-  doubt_sessions(file.runs, windy, {false, "reference_km_h and speed_km_h"}, procedure);
-  doubt_recorded_conditions(file.runs, "wind_m_s", false, procedure);
-  const models::RoadLoad<double> load{procedure.road_load(0), procedure.road_load(1), procedure.road_load(2)};
-  if (const auto doubt = doubt_torque_scale(load, procedure.correction.mass_kg, procedure.wheel_radius_m)) {
-    procedure.warnings.push_back(*doubt);
-  }
+  doubt_torques(file, windy, procedure);
   return procedure;
 }
 

@@ -101,8 +101,8 @@ void report_lost_speeds(const CoastdownRun& run, const ReferenceRun& of_run, con
       fmt::format("run {} has too few samples near {} km/h for a time (on average one every {:.3g} s)", of_run.name,
                   fmt::join(lost_km_h, ", "), interval_s);
   if (of_run.values.empty()) {
-    throw InputError({what, "", 0, "time_s", "", "four samples at least within 10 km/h of each limit of a speed bin",
-                      ""});
+    throw InputError(
+        {what, "", 0, "time_s", "", "four samples at least within 10 km/h of each limit of a speed bin", ""});
   }
   warnings.push_back(what + ": the reference speeds beside it are not in this run");
 }
@@ -174,6 +174,18 @@ void check_overlaps(RoadLoadProcedure& procedure) {
                               found, "10 N or 5 %", kClause});
 }
 
+/// The times of the runs at the reference speeds that are used, as forces.
+void put_coastdown_points(const std::vector<ReferenceRun>& runs, const PairRule& rule, RoadLoadProcedure& procedure) {
+  const std::vector<int>& used = procedure.reference.speeds;
+  for (const ReferenceRun& run : runs) {
+    procedure.run_names.push_back(run.name);
+    for (const auto& [km_h, value] : run.values) {
+      if (std::find(used.begin(), used.end(), km_h) == used.end()) continue;
+      procedure.points.push_back({run.name, run.heading, km_h * kMeterPerSecond, rule.resistance(value), 0.0});
+    }
+  }
+}
+
 }  // namespace
 
 RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const RoadLoadProcedureOptions& options) {
@@ -184,7 +196,6 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
   const std::vector<std::string> windy =
       check_winds(file.data, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, wind_checks);
   const std::vector<ReferenceRun> runs = list_reference_runs(file.data, options, procedure.warnings);
-  for (const ReferenceRun& run : runs) procedure.run_names.push_back(run.name);
   require_speeds_in_km_h(file, runs);
   std::map<int, double> speeds_m_s;
   for (int km_h = kLowestReference_km_h; km_h <= kHighestReference_km_h; km_h += kReferenceStep_km_h) {
@@ -192,32 +203,17 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
   }
   const double mass_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
   const PairRule rule{true, mass_kg * 2.0 * kHalfStep_km_h * kMeterPerSecond, "coastdown times"};
-  procedure.reference = evaluate_reference_runs(runs, speeds_m_s, rule, windy);
-  const CoastdownData used = keep_runs(file.data, procedure.reference.list_used_runs());
-  put_conditions(used, options, kWltpAir, procedure);
-  procedure.checks.insert(procedure.checks.end(), wind_checks.begin(), wind_checks.end());
-  for (const int km_h : procedure.reference.speeds) procedure.reference_speeds_m_s.push_back(speeds_m_s.at(km_h));
-  procedure.warnings.insert(procedure.warnings.end(), procedure.reference.warnings.begin(),
-                            procedure.reference.warnings.end());
+  put_reference_result(evaluate_reference_runs(runs, speeds_m_s, rule, windy), speeds_m_s, procedure);
+  put_used_conditions(file.data, options, std::move(wind_checks), procedure);
   if (file.data.runs.front().conditions.wind_m_s.empty()) {
     procedure.warnings.push_back(
         "no column wind_m_s: nothing is subtracted for the wind, which both headings have in f0 (f2 times its square)");
   }
-  procedure.wind_m_s = find_common_wind(used);
-  procedure.correction.wind_m_s = procedure.wind_m_s.value_or(0.0);
   check_reference_speeds(procedure);
   check_reference_precision(procedure);
   check_overlaps(procedure);
   finish_procedure(options, procedure);
-  for (const ReferenceRun& run : runs) {
-    for (const auto& [km_h, value] : run.values) {
-      if (std::find(procedure.reference.speeds.begin(), procedure.reference.speeds.end(), km_h) ==
-          procedure.reference.speeds.end()) {
-        continue;
-      }
-      procedure.points.push_back({run.name, run.heading, speeds_m_s.at(km_h), rule.resistance(value), 0.0});
-    }
-  }
+  put_coastdown_points(runs, rule, procedure);
   put_fitted(procedure);
   doubt_sessions(file.data, windy, force_of_coastdowns(file.data), procedure);  // also of rejected pairs
   doubt_units(procedure);
