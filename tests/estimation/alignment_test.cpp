@@ -120,9 +120,8 @@ void exchange_tires(AlignmentFile& file, std::size_t first, std::size_t second, 
 }
 
 void sort_tires(AlignmentFile& file) {
-  std::sort(file.tires.begin(), file.tires.end(), [](const AlignmentTire& a, const AlignmentTire& b) {
-    return a.candidate.mean() < b.candidate.mean();
-  });
+  std::sort(file.tires.begin(), file.tires.end(),
+            [](const AlignmentTire& a, const AlignmentTire& b) { return a.candidate.mean() < b.candidate.mean(); });
 }
 
 /// Empty where the alignment is computed.
@@ -391,9 +390,9 @@ TEST_CASE("sets without a mistake are not doubted, fine or coarse", "[fast]") {
     }
     INFO(each.step_N_per_kN << " " << each.sigma_m << ": " << doubted << " doubted, residual " << residual << ", "
                             << outliers << " outliers");
-    CHECK(doubted <= kTimes / 25);   // 2.5 % of them by the interval of the reference's sigma_m
+    CHECK(doubted <= kTimes / 25);    // 2.5 % of them by the interval of the reference's sigma_m
     CHECK(outliers <= kTimes / 100);  // level 0.005
-    CHECK(residual <= kTimes / 20);  // level 0.05
+    CHECK(residual <= kTimes / 20);   // level 0.05
   }
 }
 
@@ -502,7 +501,8 @@ TEST_CASE("a mistake that also breaks the rule of the range is named in the erro
       add_to_tire(file, place, side, error);
       sort_tires(file);
       INFO(name);
-      CHECK_THAT(find_refusal(file), Catch::Contains("range of RRc, before and after. Tire '" + name + "' does not fit"));
+      CHECK_THAT(find_refusal(file),
+                 Catch::Contains("range of RRc, before and after. Tire '" + name + "' does not fit"));
     }
     RandomStream random(49, "bad range");
     AlignmentFile file = make_pair_file(random);

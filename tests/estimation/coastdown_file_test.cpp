@@ -106,8 +106,8 @@ TEST_CASE("bins: a column that is nearly a known one is refused, others are name
 
 TEST_CASE("headings that are a code and no degrees are refused", "[fast]") {
   const auto text = [](const std::string& one, const std::string& other) {
-    return "time_s,speed_km_h,run,heading\n0,100,a," + one + "\n1,90,a," + one + "\n0,100,b," + other +
-           "\n1,90,b," + other + "\n";
+    return "time_s,speed_km_h,run,heading\n0,100,a," + one + "\n1,90,a," + one + "\n0,100,b," + other + "\n1,90,b," +
+           other + "\n";
   };
   CHECK_THROWS_WITH(read_text(text("1", "2")),
                     Catch::Contains("1 and 2 look like a code") && Catch::Contains("line 4"));
