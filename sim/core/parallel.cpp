@@ -43,6 +43,16 @@ struct Turn {
   Order& finished;
 };
 
+/// The wait for all turns, which ends with the calls of the work or with what one of them throws.
+struct Wait {
+  explicit Wait(Order& finished_) : finished(finished_) {}
+  ~Wait() { finished.acquire(); }
+  Wait(const Wait&) = delete;
+  Wait& operator=(const Wait&) = delete;
+
+  Order& finished;
+};
+
 /// Whether this thread does the work of a parallel_for.
 thread_local bool is_at_work = false;
 
@@ -78,6 +88,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   };
   const auto share_out = [&] { tbb::parallel_for(std::size_t{0}, count, work_and_tell, tbb::simple_partitioner()); };
   handed_out.release();
+  const Wait wait(finished);
   if (is_at_work && threads != 1) {
     tbb::this_task_arena::isolate(share_out);  // else a thread that waits for its part would begin with another's
   } else {
@@ -85,7 +96,6 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : tbb::task_arena::automatic);
     arena.execute(share_out);
   }
-  finished.acquire();
 }
 
 }  // namespace rollrig
