@@ -155,6 +155,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     results.economy = evaluate_economy(spec, layout, results.sections, settings.label_factor, outcome);
   }
   warn_of_map(spec, layout, outcome);
+  if (results.total.has_value()) warn_of_unused_tire(*results.total, outcome);
   std::vector<ReportedCycle> cycles;
   for (const CycleResult& cycle : results.economy.cycles) {
     const Json::json_pointer place = Json::json_pointer("/economy") / cycles.size();

@@ -121,6 +121,13 @@ std::string describe_wheels(const VehicleConditions& conditions, const rigs::Veh
                                               plain_name(layout.wheels.front().position));
 }
 
+void warn_of_unused_tire(const DriveSection& total, Outcome& outcome) {
+  if (total.vehicle_rr_J != 0.0) return;
+  outcome.warnings.push_back(
+      "on rig road the vehicle's [road_load] contains the losses of the tires: the model of the tire is not used, and "
+      "its energies and coefficients in the sections are 0");
+}
+
 void warn_of_map(const RunSpec& spec, const rigs::VehicleLayout& layout, Outcome& outcome) {
   if (!layout.powertrain_map.has_value()) return;
   const models::PowertrainMap& map = *layout.powertrain_map;
