@@ -41,12 +41,12 @@ void require_own_mark(const models::TireFile& tire, const char* option, const st
 models::ServiceDescription merge_service(const LabelInput& input, const std::optional<models::TireFile>& tire) {
   models::ServiceDescription service;
   if (tire.has_value() && tire->service.has_value()) service = *tire->service;
-  scenarios::ServiceMark mark;
+  scenarios::ParsedServiceDescription parsed;
   if (!input.load_index.empty()) {
-    mark = scenarios::parse_service_mark(input.load_index);
-    service.load_index = mark.load_index;
+    parsed = scenarios::parse_service_description(input.load_index);
+    service.load_index = parsed.load_index;
   }
-  const std::string given = scenarios::choose_speed_symbol(input.speed_symbol, mark);
+  const std::string given = scenarios::choose_speed_symbol(input.speed_symbol, parsed);
   if (!given.empty()) service.speed_symbol = given;
   if (tire.has_value() && tire->service.has_value()) {
     const models::ServiceDescription& own = *tire->service;

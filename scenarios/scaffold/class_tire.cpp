@@ -201,27 +201,45 @@ void set_law(const NewTireOptions& options, const ClassValues& values, ClassTire
   }
 }
 
+/// Load index and speed symbol of the options and the size. Throws InputError where they contradict each other.
+ParsedServiceDescription find_service_description(const NewTireOptions& options, const TireSize& size) {
+  const ParsedServiceDescription of_size = size.load_index.empty()
+                                               ? ParsedServiceDescription{}
+                                               : parse_service_description(size.load_index + size.speed_symbol);
+  ParsedServiceDescription found = options.load_index.empty() ? of_size : parse_service_description(options.load_index);
+  const bool has_both = of_size.load_index > 0 && !options.load_index.empty();
+  const bool is_other_symbol =
+      !found.speed_symbol.empty() && !of_size.speed_symbol.empty() && found.speed_symbol != of_size.speed_symbol;
+  if (has_both && (found.load_index != of_size.load_index || is_other_symbol)) {
+    const std::string own = size.load_index + size.speed_symbol;
+    throw InputError({fmt::format("the size has the load index {}", own), "command line", 0, "--load-index",
+                      options.load_index, fmt::format("{}, or no --load-index", own), ""});
+  }
+  if (found.speed_symbol.empty()) found.speed_symbol = of_size.speed_symbol;
+  found.speed_symbol = choose_speed_symbol(options.speed_symbol, found);
+  return found;
+}
+
 /// [service_description], where class, load index and speed symbol are known as far as the class needs them.
-void set_service(const NewTireOptions& options, const TireSize& size, const std::string& load_index, ClassTire& made) {
+void set_service(const NewTireOptions& options, const ParsedServiceDescription& description, ClassTire& made) {
   models::ServiceDescription service;
   service.tire_class = *models::find_class_named(made.tire_class);
-  const ServiceMark mark = parse_service_mark(load_index);
-  service.load_index = mark.load_index;
-  std::string symbol = choose_speed_symbol(options.speed_symbol, mark);
-  if (symbol.empty()) symbol = size.speed_symbol;
-  service.speed_symbol = symbol;
+  service.load_index = description.load_index;
+  service.speed_symbol = description.speed_symbol;
   service.is_reinforced = options.is_reinforced && service.tire_class == models::TireClass::kC1;
   if (options.pressure_kPa.has_value()) service.maximum_load_pressure_Pa = 1e3 * *options.pressure_kPa;
   if (service.tire_class == models::TireClass::kC1) service.maximum_load_pressure_Pa.reset();
   made.service = service;
   made.tire.service.reset();  // that of the reference tire
   if (const auto doubt = models::doubt_class_by_index(service)) made.warnings.push_back(*doubt);
-  if (symbol.empty() && service.tire_class == models::TireClass::kC3) return;
+  if (service.speed_symbol.empty() && service.tire_class == models::TireClass::kC3) return;
   if (const auto mistake = models::find_class_mistake(service)) {
     throw InputError({mistake->what, "command line", 0, "--class", made.tire_class, mistake->allowed, ""});
   }
   made.tire.service = service;
+  made.notes["service_description.class"] = options.tire_class.empty() ? "Assumed: by size and load index" : "Given";
   made.notes["service_description.load_index"] = "Given";
+  made.notes["service_description.speed_symbol"] = "Given";
   made.notes["service_description.reinforced"] = "Given";
   made.notes["service_description.maximum_load_pressure_kPa"] = "Given, as the pressure of the test";
 }
@@ -340,11 +358,11 @@ ClassTire make_class_tire(const NewTireOptions& given) {
     throw InputError({"the size does not tell the load index", "command line", 0, "--load-index", "",
                       "--load-index NUMBER, as on the sidewall behind the size", ""});
   }
+  const ParsedServiceDescription description = find_service_description(options, size);
   require_plain_name(options.name);
   ClassTire made;
   made.load_capacity_N = find_load_capacity_N(load_index);
-  made.tire_class = options.tire_class.empty() ? find_tire_class(size, parse_service_mark(load_index).load_index)
-                                               : options.tire_class;
+  made.tire_class = options.tire_class.empty() ? find_tire_class(size, description.load_index) : options.tire_class;
   made.class_reason = options.tire_class.empty() ? "guessed from size and load index" : "given";
   const ClassValues& values = find_class(made.tire_class);
   const double pressure_kPa = find_iso_pressure_kPa(options, made.tire_class);
@@ -363,7 +381,7 @@ ClassTire make_class_tire(const NewTireOptions& given) {
   made.tire.designation = size.designation;
   made.tire.basis = models::TireBasis::kClass;
   NumberSetter numbers(made, base);
-  set_service(options, size, load_index, made);
+  set_service(options, description, made);
   set_geometry(size, values, made, numbers);
   set_tests(options, values, pressure_kPa, made, numbers);
   set_stiffness(base, made.tire.iso_28580->load_N, made, numbers);

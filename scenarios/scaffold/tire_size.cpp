@@ -109,40 +109,48 @@ TireSize parse_tire_size(const std::string& text) {
   size.outer_diameter_m = size.rim_diameter_m + 2.0 * aspect_percent * 0.01 * size.section_width_m;
   size.load_index = written->load_index;
   size.speed_symbol = written->speed_symbol;
+  require_speed_symbol(size.speed_symbol, "--size", text);
   return size;
 }
 
-ServiceMark parse_service_mark(const std::string& text) {
+ParsedServiceDescription parse_service_description(const std::string& text) {
   TextCursor cursor(text);
   cursor.skip_blanks();
   const auto written = take_load_index(cursor);
   cursor.skip_blanks();
-  ServiceMark mark;
-  mark.speed_symbol = boost::algorithm::to_upper_copy(cursor.take_letters(1, 1).value_or(""));
+  ParsedServiceDescription parsed;
+  parsed.speed_symbol = boost::algorithm::to_upper_copy(cursor.take_letters(1, 1).value_or(""));
   cursor.skip_blanks();
-  mark.load_index = written.has_value() && cursor.at_end() ? std::stoi(*written) : 0;  // the first of two
-  if (models::find_load_of_index_kg(mark.load_index).has_value()) {
-    require_speed_symbol(mark.speed_symbol, "--load-index", text);
-    return mark;
+  parsed.load_index = written.has_value() && cursor.at_end() ? std::stoi(*written) : 0;  // of single mounting
+  if (!models::find_load_of_index_kg(parsed.load_index).has_value()) {
+    throw InputError({fmt::format("'{}' is no load index", text), "command line", 0, "--load-index", text,
+                      fmt::format("a number from {} to {}, as on the sidewall behind the size",
+                                  models::kLowestLoadIndex, models::kHighestLoadIndex),
+                      ""});
   }
-  throw InputError({fmt::format("'{}' is no load index", text), "command line", 0, "--load-index", text,
-                    fmt::format("a number from {} to {}, as on the sidewall behind the size", models::kLowestLoadIndex,
-                                models::kHighestLoadIndex),
-                    ""});
+  require_speed_symbol(parsed.speed_symbol, "--load-index", text);
+  const std::size_t slash = written->find('/');
+  const int dual = slash == std::string::npos ? 0 : std::stoi(written->substr(slash + 1));
+  if (dual > parsed.load_index) {
+    throw InputError({fmt::format("the load index of dual mounting, {}, is above that of single mounting", dual),
+                      "command line", 0, "--load-index", text, "that of single mounting first, as in 156/150", ""});
+  }
+  return parsed;
 }
 
-std::string choose_speed_symbol(const std::string& given, const ServiceMark& mark) {
+std::string choose_speed_symbol(const std::string& given, const ParsedServiceDescription& description) {
   const std::string symbol = boost::algorithm::to_upper_copy(given);
   require_speed_symbol(symbol, "--speed-symbol", given);
-  if (symbol.empty()) return mark.speed_symbol;
-  if (mark.speed_symbol.empty() || mark.speed_symbol == symbol) return symbol;
-  throw InputError({fmt::format("the load index {} comes with the speed symbol {}", mark.load_index, mark.speed_symbol),
-                    "command line", 0, "--speed-symbol", given, "the same symbol, or one of both options without it",
-                    ""});
+  const std::string& described = description.speed_symbol;
+  if (symbol.empty()) return described;
+  if (described.empty() || described == symbol) return symbol;
+  throw InputError({fmt::format("the service description has the speed symbol {}", described), "command line", 0,
+                    "--speed-symbol", given, fmt::format("{}, or no --speed-symbol", described), ""});
 }
 
 double find_load_capacity_N(const std::string& load_index) {
-  return models::find_load_of_index_kg(parse_service_mark(load_index).load_index).value_or(0.0) * kStandardGravity_m_s2;
+  return models::find_load_of_index_kg(parse_service_description(load_index).load_index).value_or(0.0) *
+         kStandardGravity_m_s2;
 }
 
 std::string find_tire_class(const TireSize& size, int load_index) {

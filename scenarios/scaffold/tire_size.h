@@ -24,24 +24,25 @@ struct TireSize {
 TireSize parse_tire_size(const std::string& text);
 
 /// Load that a tire of this index may carry. Of "156/150", single and dual mounting, the first counts.
-/// Errors    InputError: no number from 60 to 179
+/// Errors    InputError: those of parse_service_description()
 /// Source    UN Regulation No. 54, Annex 4
 double find_load_capacity_N(const std::string& load_index);
 
-/// What the sidewall has behind the size.
-struct ServiceMark {
-  int load_index = 0;
-  std::string speed_symbol;  // empty where it is not there
+/// The service description behind the size on a sidewall.
+struct ParsedServiceDescription {
+  int load_index = 0;        // of two, that of single mounting
+  std::string speed_symbol;  // empty if there is none
 };
 
 /// Load index, with or without speed symbol: "91", "91V", "156/150 L".
-/// Errors   InputError: no load index, or a letter behind it that is no speed symbol
+/// Errors   InputError: no load index, a letter behind it that is no speed symbol, or an index of dual mounting that is
+///          above that of single mounting
 /// Checked  tests/scenarios/scaffold_test.cpp, tests/api/label_test.cpp
-ServiceMark parse_service_mark(const std::string& text);
+ParsedServiceDescription parse_service_description(const std::string& text);
 
-/// The speed symbol that is given by itself, else that of the mark. Throws InputError where both are there and differ,
-/// or where it is not a speed symbol.
-std::string choose_speed_symbol(const std::string& given, const ServiceMark& mark);
+/// The speed symbol that is given with --speed-symbol, else that of the service description.
+/// Errors   InputError: both are there and differ, or the given one is no speed symbol
+std::string choose_speed_symbol(const std::string& given, const ParsedServiceDescription& description);
 
 /// Class of UN Regulation No. 117, paragraph 2.4: "C1", "C2" or "C3". Assumed: a size without the mark C or LT is of C1
 /// up to index 121; the regulation also asks for the speed symbol.

@@ -64,7 +64,7 @@ void attempt(const Parse& parse) {
 
 void read_words(const std::string& text) {
   attempt([&] { scenarios::parse_tire_size(text); });
-  attempt([&] { scenarios::parse_service_mark(text); });
+  attempt([&] { scenarios::parse_service_description(text); });
   attempt([&] { parse_unit(text, unit_of_key("x_kPa")); });
   attempt([&] { parse_unit(text, unit_of_key("x_km_h")); });
   for (const std::string& order : measurements::date_orders()) {

@@ -67,6 +67,31 @@ TEST_CASE("sizes of tires are read as their sidewalls have them", "[fast]") {
   }
 }
 
+TEST_CASE("a service description is read from size or load index, and its parts must agree", "[fast]") {
+  CHECK(scenarios::parse_service_description("91").speed_symbol.empty());
+  CHECK(scenarios::parse_service_description("91v").speed_symbol == "V");
+  CHECK(scenarios::parse_service_description("156/150 L").load_index == 156);
+  CHECK(scenarios::parse_service_description("156/150 L").speed_symbol == "L");
+  CHECK_THROWS_AS(scenarios::parse_service_description("91O"), InputError);
+  CHECK_THROWS_AS(scenarios::parse_service_description("107/109T"), InputError);  // dual above single mounting
+  CHECK_THROWS_AS(scenarios::parse_tire_size("205/55R16 91O"), InputError);
+  NewTireOptions options;
+  options.size = "205/55R16 91V";
+  options.rrc_N_per_kN = 8.4;
+  CHECK(scenarios::make_class_tire(options).service.speed_symbol == "V");
+  options.speed_symbol = "H";
+  CHECK_THROWS_AS(scenarios::make_class_tire(options), InputError);
+  options.speed_symbol = "";
+  options.load_index = "91V";
+  const ClassTire made = scenarios::make_class_tire(options);
+  CHECK(made.notes.at("service_description.speed_symbol") == "Given");
+  CHECK(made.notes.at("service_description.class") == "Assumed: by size and load index");
+  for (const char* other : {"91H", "94", "94V"}) {
+    options.load_index = other;
+    CHECK_THROWS_AS(scenarios::make_class_tire(options), InputError);
+  }
+}
+
 TEST_CASE("load indices give the loads of the regulation", "[fast]") {
   const std::vector<std::pair<const char*, double>> known{
       {"60", 250.0},   {"61", 257.0},   {"91", 615.0},   {"103", 875.0},      {"121", 1450.0}, {"139", 2430.0},
