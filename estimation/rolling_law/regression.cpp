@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
+#include "estimation/run_checks/pooled_scatter.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {
@@ -147,7 +149,7 @@ struct FurtherFit {
 /// Equation  F = [(S - S_f) / k] / (S_f / (n - p - k)), F distribution of k and n - p - k degrees of freedom
 /// Symbols   S, S_f sums of squared residuals without and with the k further terms; n points, p coefficients
 std::optional<FurtherFit> fit_further_terms(const std::vector<FittedPoint>& points, const Eigen::MatrixXd& jacobian) {
-  constexpr double kLeastShare = 0.02;  // Assumed: of a term of unit length, what is neither the law nor another term
+  constexpr double kLeastShare = 0.02;   // Assumed: of a term of unit length, what is neither the law nor another term
   constexpr double kLeastFreedom = 3.0;  // Assumed: with less the F test finds next to nothing
   const Eigen::Index rows = jacobian.rows();
   Eigen::VectorXd left_N(rows);
@@ -229,8 +231,9 @@ std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>
     return fmt::format(
         "{} stands out: it is {:.0f} % off the law of the other points, and bends the law of all, which misses points "
         "by up to {:.0f} %. Is its value typed right?",
-        name_point(point.point), 1e2 * point.residual_N() / (1.0 - point.leverage) /
-                                     (point.point.force_N - point.residual_N() / (1.0 - point.leverage)),
+        name_point(point.point),
+        1e2 * point.residual_N() / (1.0 - point.leverage) /
+            (point.point.force_N - point.residual_N() / (1.0 - point.leverage)),
         1e2 * share(*worst));
   }
   const bool lacks_fit = statistics.lack_of_fit.has_value() && statistics.lack_of_fit->p < kUnlikelyMisfit;
@@ -238,6 +241,60 @@ std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>
   return fmt::format(
       "the law misses {} by {:.1f} %: it does not describe this tire over this range, or a point is wrong",
       name_point(worst->point), 1e2 * share(*worst));
+}
+
+namespace {
+
+/// Points of one load and pressure.
+struct PointSet {
+  double load_N = 0.0;
+  double pressure_Pa = 0.0;
+  std::vector<double> relative_residuals;
+};
+
+std::vector<PointSet> sort_into_sets(const std::vector<FittedPoint>& points) {
+  constexpr double kSame = 0.02;
+  const auto is_near = [](double a, double b) { return std::abs(a - b) <= kSame * b; };
+  std::vector<PointSet> sets;
+  for (const FittedPoint& at : points) {
+    auto set = std::find_if(sets.begin(), sets.end(), [&](const PointSet& other) {
+      return is_near(at.point.load_N, other.load_N) && is_near(at.point.pressure_Pa, other.pressure_Pa);
+    });
+    if (set == sets.end()) set = sets.insert(set, {at.point.load_N, at.point.pressure_Pa, {}});
+    set->relative_residuals.push_back(at.residual_N() / at.point.force_N);
+  }
+  return sets;
+}
+
+double calc_mean_residual(const PointSet& set) {
+  return std::accumulate(set.relative_residuals.begin(), set.relative_residuals.end(), 0.0) /
+         static_cast<double>(set.relative_residuals.size());
+}
+
+}  // namespace
+
+std::optional<std::string> doubt_sets(const std::vector<FittedPoint>& points) {
+  constexpr double kMisses = 0.03, kUnlikely = 0.001, kExponentsAndLevel = 3.0;
+  const std::vector<PointSet> sets = sort_into_sets(points);
+  PooledScatter within;
+  double between = 0.0;
+  for (const PointSet& set : sets) {
+    within.add_group(set.relative_residuals);
+    between += static_cast<double>(set.relative_residuals.size()) * std::pow(calc_mean_residual(set), 2);
+  }
+  const double freedom = static_cast<double>(sets.size()) - kExponentsAndLevel;
+  if (freedom < 1.0 || within.degrees_of_freedom < 1.0 || !(within.squares > 0.0)) return std::nullopt;
+  const boost::math::fisher_f distribution(freedom, within.degrees_of_freedom);
+  const double p = boost::math::cdf(boost::math::complement(distribution, between / freedom / within.variance()));
+  const auto worst = std::max_element(sets.begin(), sets.end(), [](const PointSet& one, const PointSet& other) {
+    return std::abs(calc_mean_residual(one)) < std::abs(calc_mean_residual(other));
+  });
+  const double mean = calc_mean_residual(*worst);
+  if (p >= kUnlikely || std::abs(mean) <= kMisses) return std::nullopt;
+  return fmt::format(
+      "points of one load and pressure lie off the law together, those at {:.0f} N and {:.0f} kPa by {:+.0f} %: are "
+      "loads and pressures of all sets right, and the pressures gauge?",
+      worst->load_N, worst->pressure_Pa / 1e3, 1e2 * mean);
 }
 
 Eigen::MatrixXd invert_normal(const Eigen::MatrixXd& jacobian, std::vector<double>& leverages) {

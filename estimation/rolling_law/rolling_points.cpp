@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "estimation/rolling_law/regression.h"
+#include "estimation/run_checks/robust_statistics.h"
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
 #include "sim/core/limits.h"
@@ -33,16 +34,13 @@ const Field kLoad{"load_N", between(100.0, 100000.0), "Load on the tire"};
 const Field kPressure{"pressure_kPa", between(50.0, 1500.0), "Gauge pressure"};
 const Field kForce{"rolling_resistance_N", {0.0, 5000.0, true, false}, "Rolling resistance"};
 
-/// Throws InputError where the pressures look as if they were in bar or psi.
-void require_pressures_in_kPa(const CsvTable& table, const std::string& path) {
-  constexpr double kMost_bar = 15.0, kMost_psi = 50.0;  // Assumed: lower ones in kPa are those of no tire on a rig
+/// Throws InputError if the median pressure is too low for kPa, as if it were in bar or psi.
+void refuse_pressures_in_bar_or_psi(const CsvTable& table, const std::string& path) {
+  constexpr double kLeast_kPa = 50.0;  // as of kPressure
+  constexpr double kMost_bar = 15.0;   // Assumed: no tire is tested above 15 bar, or below 15 psi
   const std::vector<double> pressures_Pa = table.numbers({kPressure.key, any_number(), kPressure.doc});
-  if (pressures_Pa.empty()) return;
-  std::vector<double> sorted = pressures_Pa;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double median = *middle / 1e3;  // as it stands in the file
-  if (median <= 0.0 || median >= kMost_psi) return;
+  const double median = calc_median(pressures_Pa) / 1e3;  // as it stands in the file
+  if (median <= 0.0 || median >= kLeast_kPa) return;
   throw InputError({fmt::format("the pressures, {:g} on the median, are too low for tires in kPa: are they in {}?",
                                 median, median < kMost_bar ? "bar" : "psi"),
                     path, table.line_of(0), kPressure.key, fmt::format("{:g}", pressures_Pa.front() / 1e3),
@@ -51,7 +49,7 @@ void require_pressures_in_kPa(const CsvTable& table, const std::string& path) {
 
 RollingTest read_csv_points(const std::string& path) {
   const CsvTable table = CsvTable::read(path);
-  require_pressures_in_kPa(table, path);
+  refuse_pressures_in_bar_or_psi(table, path);
   const std::vector<double> speed_m_s = table.numbers(kSpeed);
   const std::vector<double> load_N = table.numbers(kLoad);
   const std::vector<double> pressure_Pa = table.numbers(kPressure);
@@ -200,9 +198,7 @@ std::optional<std::string> doubt_area(const std::vector<RollingPoint>& points) {
 double calc_median_coefficient(const std::vector<RollingPoint>& points) {
   std::vector<double> coefficients;
   for (const RollingPoint& point : points) coefficients.push_back(point.force_N / point.load_N);
-  const auto middle = coefficients.begin() + static_cast<std::ptrdiff_t>(coefficients.size() / 2);
-  std::nth_element(coefficients.begin(), middle, coefficients.end());
-  return *middle;
+  return calc_median(std::move(coefficients));
 }
 
 }  // namespace
@@ -229,7 +225,7 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
                     "force in lbf and not in N?",
                     1e3 * coefficient));
   }
-  constexpr double kWorst = 15e-3;  // Assumed: the worst warm tires have 15 N/kN
+  constexpr double kWorst = 15e-3;  // Assumed: stage 1 of UN R117 permitted 12 N/kN (docs/label.md)
   if (coefficient > kWorst) {
     doubts.push_back(fmt::format(
         "rolling resistance over load is {:.3g} N/kN (median), more than that of warm tires, 4 to 15: is the "

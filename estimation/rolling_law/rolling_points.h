@@ -59,18 +59,20 @@ RollingTest read_rolling_test(const std::string& path, PressureTaken taken = Pre
 /// in another unit, such as kgf.
 void require_plausible_coefficient(const std::string& path, const std::vector<RollingPoint>& points);
 
-/// Doubts that hold for each of the fits: units of force, load and pressure, the force of two tires, points that are copies of others, and what
-/// doubt_trends() finds.
+/// Doubts that hold for each of the fits: units of force, load and pressure, the force of two tires, points that are
+/// copies of others, and what doubt_trends() finds.
 std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points);
 
 /// Doubts by how the force goes with pressure, load and speed, whatever law is fitted: columns whose values stand in
 /// the wrong rows, absolute pressures, a parasitic loss that was not subtracted.
 /// Equation  ln F = k + alpha ln P + beta ln Z + gamma ln v + delta (ln v)^2, by least squares, of those that have
 ///           several values, delta of three speeds or more
-/// Assumed: alpha is not above 0.02, that is 0 with noise; its interval of 95 % reaches above -0.55, where tests in the
-/// literature found -0.3 to -0.5 (assets/tires) and 101 kPa more than the gauge pressure make -0.4 of a car's tire to
-/// some -0.57; beta is 0.7 to 2, where tires have 0.8 to 1.5 and a parasitic loss makes that of a car's tire 0.53 to
-/// 0.75; over the speeds of the test the force does not fall by more than 5 %
+/// Assumed:
+/// * alpha is not above 0.02, that is 0 with noise
+/// * the interval of 95 % of alpha reaches above -0.55: tests in the literature found -0.3 to -0.5 (assets/tires), and
+///   absolute pressures turn the -0.4 of a car's tire into some -0.57
+/// * beta is 0.7 to 2: tires have 0.8 to 1.5, and a parasitic loss lowers that of a car's tire to 0.53 to 0.75
+/// * over the speeds of the test, the force does not fall by more than 5 %
 std::vector<std::string> doubt_trends(const std::vector<RollingPoint>& points);
 
 /// Doubts of measured points that do not go with the tire's maximum load and base pressure, as far as these are known:

@@ -365,6 +365,25 @@ int count_parasitic_doubts(double offset_N, double of_square_N) {
 
 }  // namespace
 
+TEST_CASE("sets whose pressure is absolute lie off the law together", "[fast]") {
+  std::vector<RollingPoint> points;
+  RandomStream random(3, "noise of forces");
+  for (const auto& [load_N, pressure_kPa] :
+       {std::pair(6000.0, 180.0), std::pair(4500.0, 210.0), std::pair(3000.0, 260.0), std::pair(2000.0, 290.0),
+        std::pair(3000.0, 180.0), std::pair(4500.0, 290.0), std::pair(6000.0, 260.0)}) {
+    for (const double km_h : {115.0, 95.0, 80.0, 65.0, 50.0, 35.0, 15.0}) {
+      points.push_back(make_point(km_h, load_N, pressure_kPa, 0.1 * random.normal()));
+    }
+  }
+  CHECK_FALSE(estimation::doubt_sets(estimation::fit_j2452(points).points).has_value());
+  for (RollingPoint& point : points) {
+    if (point.pressure_Pa < 181e3) point.pressure_Pa += 101.3e3;
+  }
+  const auto doubt = estimation::doubt_sets(estimation::fit_j2452(points).points);
+  REQUIRE(doubt.has_value());
+  CHECK_THAT(*doubt, Catch::Contains("281 kPa") && Catch::Contains("gauge?"));
+}
+
 TEST_CASE("a parasitic loss that was not subtracted shows beside the law, and tires without one are not doubted",
           "[fast]") {
   CHECK(count_parasitic_doubts(0.0, 0.0) == 0);
