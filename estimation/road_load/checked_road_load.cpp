@@ -131,8 +131,8 @@ RoadLoadFit replace_failed(const CoastdownData& data, const RoadLoadFitOptions& 
     throw RunFailure(
         fmt::format("{}. Without any one of most runs there is a fit: no single run is the cause", failure.what()));
   }
-  throw RunFailure(fmt::format("{}. There is a fit without {}: look at {}, or leave {} out (--leave-out)", failure.what(),
-                               list_names(data, disturbing), disturbing.size() == 1 ? "it" : "them",
+  throw RunFailure(fmt::format("{}. There is a fit without {}: look at {}, or leave {} out (--leave-out)",
+                               failure.what(), list_names(data, disturbing), disturbing.size() == 1 ? "it" : "them",
                                disturbing.size() == 1 ? "it" : "one of them"));
 }
 
@@ -161,11 +161,12 @@ void doubt_records(const CoastdownData& data, const RoadLoadFitOptions& options,
   }
   const double mass_kg = find_test_mass_kg(options, fit.effective_mass_kg);
   const double drag = given_drag(options).value_or(fit.as_tested.C_N_s2_per_m2);
-  for (auto& doubts : {doubt_winds(list_winds_by_force(data, runs, drag), "the headings show a wind of", "wind_m_s"),
-                       doubt_slopes(list_slopes_by_force(data, runs, mass_kg, false)),
-                       doubt_session_units(data, runs, force_of_coastdowns(data))}) {
+  for (auto& doubts :
+       {doubt_winds(list_winds_by_force(data, runs, drag), "the headings show a wind of", "wind_m_s"),
+        doubt_slopes(list_slopes_by_force(data, runs, mass_kg, SlopeForce::kIncluded)), doubt_session_units(data)}) {
     fit.warnings.insert(fit.warnings.end(), doubts.begin(), doubts.end());
   }
+  if (has_recorded_slopes(data)) return;  // compared above
   if (auto doubt = doubt_session_headings(data, runs, mass_kg)) fit.warnings.push_back(std::move(*doubt));
 }
 

@@ -10,6 +10,7 @@
 #include <boost/math/distributions/students_t.hpp>
 
 #include "estimation/road_load/road_load_checks.h"
+#include "estimation/run_checks/pooled_scatter.h"
 #include "sim/core/units.h"
 
 namespace rollrig::estimation {
@@ -75,26 +76,24 @@ struct Comparison {
 std::optional<Comparison> compare_session(const std::vector<RecordedAndShown>& runs, const std::string& session) {
   constexpr double kUnlikely = 0.005;
   double n[2] = {0.0, 0.0}, recorded[2] = {0.0, 0.0}, shown[2] = {0.0, 0.0};
+  std::vector<double> differences[2];
   const auto side = [](const RecordedAndShown& run) { return run.heading > 0 ? 0 : 1; };
   for (const RecordedAndShown& run : runs) {
     if (run.session != session || run.heading == 0) continue;
     n[side(run)] += 1.0;
     recorded[side(run)] += run.recorded;
     shown[side(run)] += run.shown;
+    differences[side(run)].push_back(run.shown - run.recorded);
   }
   if (n[0] < 2.0 || n[1] < 2.0) return std::nullopt;
+  PooledScatter scatter;
   for (const int i : {0, 1}) {
     recorded[i] /= n[i];
     shown[i] /= n[i];
+    scatter.add_group(differences[i]);
   }
-  double squares = 0.0;
-  for (const RecordedAndShown& run : runs) {
-    if (run.session != session || run.heading == 0) continue;
-    squares += std::pow(run.shown - run.recorded - (shown[side(run)] - recorded[side(run)]), 2);
-  }
-  const double freedom = n[0] + n[1] - 2.0;
-  const double sd = 0.5 * std::sqrt(squares / freedom * (1.0 / n[0] + 1.0 / n[1]));
-  const double t = boost::math::quantile(boost::math::students_t(freedom), 1.0 - 0.5 * kUnlikely);
+  const double sd = 0.5 * std::sqrt(scatter.variance() * (1.0 / n[0] + 1.0 / n[1]));
+  const double t = boost::math::quantile(boost::math::students_t(scatter.degrees_of_freedom), 1.0 - 0.5 * kUnlikely);
   return Comparison{0.5 * (recorded[0] + recorded[1]), 0.5 * (recorded[0] - recorded[1]), 0.5 * (shown[0] + shown[1]),
                     t * sd};
 }
@@ -192,6 +191,11 @@ std::vector<RecordedAndShown> list_winds_by_force(const CoastdownData& data, con
   return winds;
 }
 
+bool has_recorded_slopes(const CoastdownData& data) {
+  return std::any_of(data.runs.begin(), data.runs.end(),
+                     [](const CoastdownRun& run) { return !run.conditions.slope.empty(); });
+}
+
 std::vector<ShownSlope> list_shown_slopes(const CoastdownData& data, const std::vector<RunResistance>& runs,
                                           double mass_kg) {
   std::vector<ShownSlope> slopes;
@@ -206,13 +210,14 @@ std::vector<ShownSlope> list_shown_slopes(const CoastdownData& data, const std::
 }
 
 std::vector<RecordedAndShown> list_slopes_by_force(const CoastdownData& data, const std::vector<RunResistance>& runs,
-                                                   double mass_kg, bool is_taken_off) {
+                                                   double mass_kg, SlopeForce slope_force) {
   std::vector<RecordedAndShown> slopes;
   for (const ShownSlope& shown : list_shown_slopes(data, runs, mass_kg)) {
     const CoastdownRun& run = data.runs[shown.run];
     if (run.conditions.slope.empty()) continue;
     const double recorded = calc_mean(run.conditions.slope);
-    slopes.push_back({run.heading, run.session, recorded, shown.slope + (is_taken_off ? recorded : 0.0)});
+    slopes.push_back(
+        {run.heading, run.session, recorded, shown.slope + (slope_force == SlopeForce::kSubtracted ? recorded : 0.0)});
   }
   return slopes;
 }

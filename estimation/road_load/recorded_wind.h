@@ -10,7 +10,7 @@
 
 namespace rollrig::estimation {
 
-/// Resistance of one run over speed, as tested: wind and slope are in it.
+/// Resistance of one run over speed, as tested. The wind is in it; the slope is, unless SlopeForce says otherwise.
 struct RunResistance {
   std::size_t run = 0;  // in the data
   std::vector<double> speed_m_s;
@@ -46,10 +46,15 @@ struct ShownSlope {
 std::vector<ShownSlope> list_shown_slopes(const CoastdownData& data, const std::vector<RunResistance>& runs,
                                           double mass_kg);
 
-/// The slope of each run with a recorded one, and the one that its force shows. Where the forces are without that of
-/// the recorded slope, this is added again.
+bool has_recorded_slopes(const CoastdownData& data);
+
+/// Whether the forces of runs contain that of the recorded slope.
+enum class SlopeForce { kIncluded, kSubtracted };
+
+/// The slope of each run with a recorded one, and the one that its force shows. If the force of the recorded slope was
+/// subtracted, the recorded slope is added to what the force shows.
 std::vector<RecordedAndShown> list_slopes_by_force(const CoastdownData& data, const std::vector<RunResistance>& runs,
-                                                   double mass_kg, bool is_taken_off);
+                                                   double mass_kg, SlopeForce slope_force);
 
 /// What contradicts the recorded winds, session by session: "the headings show 2.0 m/s, wind_m_s has -1.9 m/s: ...".
 /// `shown_by` is the subject, such as "the headings show"; `column` that of the records.

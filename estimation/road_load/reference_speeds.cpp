@@ -13,6 +13,7 @@
 
 #include "estimation/road_load/reference_choice.h"
 #include "estimation/road_load/road_load_checks.h"
+#include "estimation/run_checks/pooled_scatter.h"
 #include "sim/core/text.h"
 
 namespace rollrig::estimation {
@@ -37,20 +38,20 @@ void require_both_headings(const std::vector<ReferenceRun>& runs) {
 
 /// Chance that groups of one mean differ as much: analysis of variance, one way. 1 where nothing tells.
 double find_chance_of_groups(const std::map<std::string, std::vector<double>>& groups) {
-  double n = 0.0, sum = 0.0, within = 0.0, between = 0.0;
+  double n = 0.0, sum = 0.0, between = 0.0;
+  PooledScatter within;
   for (const auto& [name, values] : groups) {
     n += static_cast<double>(values.size());
     sum += calc_mean(values) * static_cast<double>(values.size());
-    for (const double value : values) within += std::pow(value - calc_mean(values), 2);
+    within.add_group(values);
   }
   for (const auto& [name, values] : groups) {
     between += static_cast<double>(values.size()) * std::pow(calc_mean(values) - sum / n, 2);
   }
   const double between_freedom = static_cast<double>(groups.size()) - 1.0;
-  const double within_freedom = n - static_cast<double>(groups.size());
-  if (between_freedom < 1.0 || within_freedom < 1.0 || !(within > 0.0)) return 1.0;
-  const boost::math::fisher_f distribution(between_freedom, within_freedom);
-  const double F = between / between_freedom / (within / within_freedom);
+  if (between_freedom < 1.0 || within.degrees_of_freedom < 1.0 || !(within.squares > 0.0)) return 1.0;
+  const boost::math::fisher_f distribution(between_freedom, within.degrees_of_freedom);
+  const double F = between / between_freedom / within.variance();
   return boost::math::cdf(boost::math::complement(distribution, F));
 }
 
@@ -81,17 +82,40 @@ class PairTable {
   const std::string& session_of(const ReferencePair& pair) const { return runs_[pair.plus].session; }
 
   /// Whether the pairs, but those with too much wind, differ from session to session more than within them: analysis of
-  /// variance of their mean relative deviations, p < 0.01.
+  /// variance of their mean relative deviations, p < 0.01. A session without a pair that counts is left out.
   bool sessions_differ() const {
     constexpr double kUnlikely = 0.01;
     std::map<std::string, std::vector<double>> sessions;
     for (const ReferencePair& pair : pairs_) {
-      if (pair.is_windy) continue;
+      if (pair.is_windy || !has_counted(session_of(pair))) continue;
       double sum = 0.0;
       for (const int speed : pair.speeds) sum += resistance(pair, speed) / mean_resistance(list(speed), speed) - 1.0;
       sessions[session_of(pair)].push_back(sum / static_cast<double>(pair.speeds.size()));
     }
     return find_chance_of_groups(sessions) < kUnlikely;
+  }
+
+  bool has_counted(const std::string& session) const {
+    return std::any_of(pairs_.begin(), pairs_.end(),
+                       [&](const ReferencePair& pair) { return pair.rejected.empty() && session_of(pair) == session; });
+  }
+
+  /// The pair that is farthest from the mean at a speed where the precision is not met; null if all are met.
+  const ReferencePair* find_farthest(const std::vector<int>& speeds) const {
+    const ReferencePair* farthest = nullptr;
+    double distance = 0.0;
+    for (const int speed : speeds) {
+      const ReferencePrecision precision = calc_precision(values(speed));
+      if (precision.precision <= kPrecisionLimit) continue;
+      for (const ReferencePair* pair : list(speed)) {
+        const double deviation = std::abs(value(*pair, speed) / precision.mean - 1.0);
+        if (deviation > distance) {
+          distance = deviation;
+          farthest = pair;
+        }
+      }
+    }
+    return farthest;
   }
 
   double mean_resistance(const std::vector<const ReferencePair*>& pairs, int speed) const {
@@ -100,13 +124,14 @@ class PairTable {
     return sum / static_cast<double>(pairs.size());
   }
 
-  /// How much more resistance a run has than the others of its heading and part whose pairs count, as a share and mean
-  /// over the speeds of its pair; 0 where there is no other.
+  /// By how much the resistance of a run exceeds that of the other runs of the same heading and part whose pairs count:
+  /// as a share, and mean over the speeds of its pair. 0 if there is no such run.
   double deviation_of_run(const ReferencePair& pair, std::size_t ReferencePair::*run) const {
     std::vector<double> deviations;
     for (const int speed : pair.speeds) {
       std::vector<double> others;
       for (const ReferencePair* other : list(speed, pair.part)) {
+        if (other == &pair) continue;
         others.push_back(rule_.resistance(runs_[other->*run].values.at(speed)));
       }
       if (others.empty()) continue;
@@ -280,9 +305,11 @@ std::vector<ReferencePair> keep_used_speeds(const std::vector<ReferenceRun>& run
   return kept;
 }
 
-/// Which run of a rejected pair is the cause, where the other one is like the rest; empty where both differ.
-std::string find_odd_run_of(const std::vector<ReferenceRun>& runs, const PairTable& table, const ReferencePair& pair) {
-  constexpr double kClearly = 3.0;
+/// Text that names the run of a pair that deviates at least three times as much as its partner; empty if
+/// neither does.
+std::string describe_deviating_run(const std::vector<ReferenceRun>& runs, const PairTable& table,
+                                   const ReferencePair& pair) {
+  constexpr double kClearly = 3.0;  // Assumed
   const double plus = table.deviation_of_run(pair, &ReferencePair::plus);
   const double minus = table.deviation_of_run(pair, &ReferencePair::minus);
   const bool is_plus = std::abs(plus) > kClearly * std::abs(minus);
@@ -310,7 +337,7 @@ void report_rejected(const std::vector<ReferenceRun>& runs, const PairTable& tab
     if (pair.rejected.empty()) continue;
     std::string text = fmt::format("the pair of runs {} and {} is rejected: {}", runs[pair.plus].name,
                                    runs[pair.minus].name, pair.rejected);
-    if (is_imprecise(pair)) text += find_odd_run_of(runs, table, pair);
+    if (is_imprecise(pair)) text += describe_deviating_run(runs, table, pair);
     const std::string& session = runs[pair.plus].session;
     const auto rejected = count_of(session, false);
     if (is_imprecise(pair) && rejected > 1 && rejected == count_of(session, true) && said.insert(session).second) {
@@ -359,11 +386,11 @@ ReferencePrecision calc_precision(const std::vector<double>& values) {
 }
 
 ReferenceResult evaluate_reference_runs(const std::vector<ReferenceRun>& runs, const std::map<int, double>& speeds_m_s,
-                                        const PairRule& rule, const std::vector<std::string>& rejected_runs) {
+                                        const PairRule& rule, const std::vector<std::string>& windy) {
   require_both_headings(runs);
   PairedRuns paired = pair_runs(runs);
-  reject_windy(runs, rejected_runs, paired.pairs);
-  const ReferenceChoice choice(runs, paired, rejected_runs, rule.quantity);
+  reject_windy(runs, windy, paired.pairs);
+  const ReferenceChoice choice(runs, paired, windy, rule.quantity);
   choice.require_enough(speeds_m_s);
   ReferenceResult result;
   result.speeds = choice.speeds();
@@ -373,6 +400,15 @@ ReferenceResult evaluate_reference_runs(const std::vector<ReferenceRun>& runs, c
   PairTable table(runs, rule, result.pairs);
   const std::vector<const ReferencePair*> imprecise = table.reject(result.speeds);
   report_rejected(runs, table, result.pairs, imprecise, result.warnings);
+  if (const ReferencePair* kept = table.find_farthest(result.speeds)) {
+    const std::string run = describe_deviating_run(runs, table, *kept);
+    if (!run.empty()) {
+      result.warnings.push_back(
+          fmt::format("the pair of runs {} and {} is far off, but stays, since three pairs are needed and a third may "
+                      "be rejected{}",
+                      runs[kept->plus].name, runs[kept->minus].name, run));
+    }
+  }
   for (const int speed : result.speeds) result.precisions.push_back(calc_precision(table.values(speed)));
   find_overlaps(table, result);
   fit_coefficients(table, speeds_m_s, result);

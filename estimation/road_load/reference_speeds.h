@@ -77,6 +77,6 @@ ReferencePrecision calc_precision(const std::vector<double>& values);
 /// Source    UN GTR 15 Annex 4, 4.3.1.3 and 4.3.1.4; Welch, Biometrika 34 (1947) 28
 /// Checked   tests/estimation/reference_speeds_test.cpp, tests/estimation/wltp_coverage_test.cpp
 ReferenceResult evaluate_reference_runs(const std::vector<ReferenceRun>& runs, const std::map<int, double>& speeds_m_s,
-                                        const PairRule& rule, const std::vector<std::string>& rejected_runs);
+                                        const PairRule& rule, const std::vector<std::string>& windy);
 
 }  // namespace rollrig::estimation

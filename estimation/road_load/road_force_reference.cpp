@@ -40,6 +40,19 @@ double calc_reference_weight(double u, bool tukey) {
 
 }  // namespace
 
+std::optional<BinForce> find_bin_force(const FitRun& run, const FitBin& bin, double mass_kg) {
+  double high_m_s = bin.high_m_s, low_m_s = bin.low_m_s, duration_s = bin.duration_s;
+  if (bin.upper_cell >= 0) {
+    const SpeedCell& upper = run.cells[static_cast<std::size_t>(bin.upper_cell)];
+    const SpeedCell& lower = run.cells[static_cast<std::size_t>(bin.upper_cell) + 1];
+    high_m_s = upper.mean_speed_m_s;
+    low_m_s = lower.mean_speed_m_s;
+    duration_s = lower.mean_time_s - upper.mean_time_s;
+  }
+  if (duration_s <= 0.0) return std::nullopt;
+  return BinForce{0.5 * (high_m_s + low_m_s), mass_kg * (high_m_s - low_m_s) / duration_s};
+}
+
 RoadForceReference::RoadForceReference(const CoastdownData& data, const std::vector<FitRun>& runs,
                                        const std::vector<bool>& used, double mass_kg)
     : data_(data), mass_kg_(mass_kg) {
@@ -63,19 +76,12 @@ std::vector<RoadForceReference::Point> RoadForceReference::list_points(const Fit
   const Eigen::Index session = sessions_.at(data_.runs[run.index].session);
   std::vector<Point> points;
   for (const FitBin& bin : run.bins) {
-    double dv = bin.high_m_s - bin.low_m_s;
-    double dt = bin.duration_s;
+    const std::optional<BinForce> found = find_bin_force(run, bin, mass_kg_);
+    if (!found.has_value()) continue;
     Point point;
-    point.speed_m_s = 0.5 * (bin.high_m_s + bin.low_m_s);
-    if (bin.upper_cell >= 0) {
-      const SpeedCell& upper = run.cells[static_cast<std::size_t>(bin.upper_cell)];
-      const SpeedCell& lower = run.cells[static_cast<std::size_t>(bin.upper_cell) + 1];
-      dv = upper.mean_speed_m_s - lower.mean_speed_m_s;
-      dt = lower.mean_time_s - upper.mean_time_s;
-      point.speed_m_s = 0.5 * (upper.mean_speed_m_s + lower.mean_speed_m_s);
-    }
-    point.force_N = mass_kg_ * dv / dt - bin.at.offset_N - bin.at.offset_N_s_per_m * point.speed_m_s;
-    if (dt <= 0.0 || point.force_N <= 0.0) continue;
+    point.speed_m_s = found->speed_m_s;
+    point.force_N = found->force_N - bin.at.offset_N - bin.at.offset_N_s_per_m * point.speed_m_s;
+    if (point.force_N <= 0.0) continue;
     const double air_m_s = point.speed_m_s + bin.at.wind_m_s;
     const Eigen::Vector3d load(bin.at.rolling, bin.at.rolling * point.speed_m_s,
                                bin.at.density * air_m_s * std::abs(air_m_s));
@@ -84,6 +90,9 @@ std::vector<RoadForceReference::Point> RoadForceReference::list_points(const Fit
     const Eigen::Index of_session = kCommonFactors + kSessionFactors * session;
     point.factors(of_session) = run.heading * point.speed_m_s;
     if (sessions_.size() > 1) point.factors.segment(of_session + 1, load.size()) = load;
+    point.level_factors = point.factors;
+    point.level_factors(kCommonFactors - 1) = 0.0;
+    point.level_factors(of_session) = 0.0;
     points.push_back(point);
   }
   return points;
@@ -97,10 +106,11 @@ void RoadForceReference::solve(const std::vector<Point>& points) {
   const auto n = static_cast<Eigen::Index>(points.size());
   coefficients_ = Eigen::VectorXd::Zero(count_factors());
   if (n == 0) return;
-  Eigen::MatrixXd X(n, coefficients_.size());
+  Eigen::MatrixXd X(n, coefficients_.size()), level(n, coefficients_.size());
   Eigen::VectorXd y(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     X.row(i) = points[static_cast<std::size_t>(i)].factors;
+    level.row(i) = points[static_cast<std::size_t>(i)].level_factors;
     y(i) = points[static_cast<std::size_t>(i)].force_N;
   }
   const Eigen::VectorXd precisions = find_precisions(X, y);
@@ -116,7 +126,7 @@ void RoadForceReference::solve(const std::vector<Point>& points) {
     const Eigen::VectorXd fitted = X * coefficients_;
     // a reference force near zero would make one bin count for all
     least_scale_N_ = kLeastShare * fitted.mean();
-    scale = fitted.cwiseMax(least_scale_N_);
+    scale = (level * coefficients_).cwiseMax(least_scale_N_);
     const Eigen::VectorXd residual = (y - fitted).cwiseQuotient(scale);
     sd = std::max(kLeastSd, 1.4826 * calc_median(to_sizes(residual)));
     weights =
@@ -131,7 +141,8 @@ RunDeviation RoadForceReference::deviation_of(const FitRun& run, std::size_t pla
   for (const Point& point : list_points(run)) {
     const double reference_N = point.factors.dot(coefficients_);
     deviation.speed_m_s.push_back(point.speed_m_s);
-    deviation.relative.push_back((point.force_N - reference_N) / std::max(reference_N, least_scale_N_));
+    const double level_N = point.level_factors.dot(coefficients_);
+    deviation.relative.push_back((point.force_N - reference_N) / std::max(level_N, least_scale_N_));
   }
   return deviation;
 }

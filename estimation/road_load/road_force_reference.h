@@ -2,6 +2,7 @@
 /// What the other runs say of the force of a run: a robust road load, to find the odd one.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,18 @@
 
 namespace rollrig::estimation {
 
+/// Mean force over a bin.
+struct BinForce {
+  double speed_m_s = 0.0;  // the middle
+  double force_N = 0.0;    // m dv/dt
+};
+
+/// Of a trace by the means of the cells at both ends of the bin; nothing if the speed does not fall.
+std::optional<BinForce> find_bin_force(const FitRun& run, const FitBin& bin, double mass_kg);
+
 /// A road load through mean forces over bins that a few odd runs do not move.
-/// Equation  f = k (A + D_s + (B + E_s) v) + q (C + F_s) u|u| + offset(v) + h (d_0 + d_1s v), Tukey's weights on the
-///           relative residuals (c = 4.685 robust standard deviations), Huber's (c = 1.345) first
+/// Equation  f = L + h (d_0 + d_1s v), L = k (A + D_s + (B + E_s) v) + q (C + F_s) u|u| + offset(v), Tukey's weights
+///           on the residuals over L (c = 4.685 robust standard deviations), Huber's (c = 1.345) first
 /// Symbols   f m dv/dt of a bin, at its middle speed v; u = v + h w; d_1s, D_s, E_s, F_s one for each session, the
 ///           last three where there are several; others as in fit_road_load()
 /// Method    The terms of a session have a normal prior about 0, each of a standard deviation of 30 % of the force
@@ -29,8 +39,8 @@ class RoadForceReference {
   RoadForceReference(const CoastdownData& data, const std::vector<FitRun>& runs, const std::vector<bool>& used,
                      double mass_kg);
 
-  /// Force of the run less that of the reference, over the latter, or over a fifth of its mean if that is larger, for
-  /// each bin. `place` is its place among the runs.
+  /// Force of the run less that of the reference, for each bin, over L, or over a fifth of its mean if that is larger:
+  /// on a slope, the same scatter counts alike in both headings. `place` is the place of the run among the runs.
   RunDeviation deviation_of(const FitRun& run, std::size_t place) const;
 
  private:
@@ -38,6 +48,7 @@ class RoadForceReference {
     double speed_m_s = 0.0;
     double force_N = 0.0;
     Eigen::VectorXd factors;
+    Eigen::VectorXd level_factors;  // without what the headings have with opposite signs
   };
   std::vector<Point> list_points(const FitRun& run) const;
   Eigen::Index count_factors() const;
@@ -47,7 +58,7 @@ class RoadForceReference {
   double mass_kg_;
   std::map<std::string, Eigen::Index> sessions_;
   Eigen::VectorXd coefficients_;
-  double least_scale_N_ = 0.0;  // deviations are relative to the reference, or to this if it is larger
+  double least_scale_N_ = 0.0;  // deviations are relative to L, or to this if it is larger
 };
 
 }  // namespace rollrig::estimation

@@ -34,7 +34,8 @@ struct PairPrecision {
 /// Line through the relative deviations of a session's runs, each heading with its own mean and its own share of
 /// a change that the headings share with opposite signs (a wind that turns).
 /// Equation  g_r = a_h + b x_r + c h x_r,  x from -1/2 to 1/2 over the session; time change = -b
-/// Symbols   g_r mean of (force - fit)/fit over the bins of a run; h heading +1 or -1
+/// Symbols   g_r mean of (force - fit)/F over the bins of a run, F road load as tested, without wind and slope;
+///           h heading +1 or -1
 /// Validity  two runs more than coefficients; least squares, Student's t
 /// Checked   tests/estimation/road_load_checks_test.cpp
 std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const RoadLoadFit& fit);

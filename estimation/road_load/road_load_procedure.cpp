@@ -19,7 +19,7 @@
 namespace rollrig::estimation {
 namespace {
 
-double calc_root_of_squares(const std::vector<double>& values, const std::vector<double>& others) {
+double calc_peak_total(const std::vector<double>& values, const std::vector<double>& others) {
   double most = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     most = std::max(most, std::hypot(values[i], others.size() == values.size() ? others[i] : 0.0));
@@ -35,29 +35,14 @@ double calc_mean_total(const std::vector<double>& along, const std::vector<doubl
   return along.empty() ? 0.0 : sum / static_cast<double>(along.size());
 }
 
-/// The points of each run, but for the runs in `without`.
-std::vector<RunResistance> list_resistances(const CoastdownData& data, const std::vector<std::string>& without,
-                                            const RoadLoadProcedure& procedure) {
-  std::vector<RunResistance> runs;
-  for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    const std::string name = name_of_run(data.runs[i], data);
-    if (std::find(without.begin(), without.end(), name) != without.end()) continue;
-    RunResistance of_run{i, {}, {}};
-    for (const ProcedurePoint& point : procedure.points) {
-      if (point.run != name) continue;
-      of_run.speed_m_s.push_back(point.speed_m_s);
-      of_run.force_N.push_back(point.measured);
-    }
-    if (!of_run.speed_m_s.empty()) runs.push_back(std::move(of_run));
-  }
-  return runs;
-}
-
-/// Mean of measured over fitted force, less 1, of a run by its name.
+/// Mean of (measured - fitted force)/road load of a run by its name: over the road load of both headings, so that a
+/// slope or a wind that the headings have with opposite signs cancels.
 double calc_mean_deviation(const std::string& run, const RoadLoadProcedure& procedure) {
   std::vector<double> deviations;
   for (const ProcedurePoint& point : procedure.points) {
-    if (point.run == run) deviations.push_back(point.measured / point.fitted - 1.0);
+    const double load =
+        procedure.as_tested.dot(Eigen::Vector3d(1.0, point.speed_m_s, point.speed_m_s * point.speed_m_s));
+    if (point.run == run && load > 0.0) deviations.push_back((point.measured - point.fitted) / load);
   }
   return calc_mean(deviations);
 }
@@ -149,7 +134,7 @@ std::vector<std::string> check_winds(const CoastdownData& data, const WindLimits
     any = true;
     any_across = any_across || !at.crosswind_m_s.empty();
     const double mean = calc_mean_total(at.wind_m_s, at.crosswind_m_s);
-    const double peak = calc_root_of_squares(at.wind_m_s, at.crosswind_m_s);
+    const double peak = calc_peak_total(at.wind_m_s, at.crosswind_m_s);
     const double across = at.crosswind_m_s.empty() ? 0.0 : std::abs(calc_mean(at.crosswind_m_s));
     if (mean > limits.mean_m_s || peak > limits.peak_m_s || across > limits.across_m_s) {
       above.push_back(name_of_run(run, data));
@@ -327,18 +312,38 @@ void doubt_units(RoadLoadProcedure& procedure) {
   }
 }
 
-void doubt_recorded_conditions(const CoastdownData& data, const std::string& column, bool has_slopes,
-                               RoadLoadProcedure& procedure) {
-  const std::vector<RunResistance> runs = list_resistances(data, {}, procedure);
-  const auto add = [&procedure](const std::vector<std::string>& doubts) {
-    procedure.warnings.insert(procedure.warnings.end(), doubts.begin(), doubts.end());
-  };
-  add(doubt_winds(list_winds_by_force(data, runs, procedure.as_tested(2)), "the headings show a wind of", column));
-  if (has_slopes) add(doubt_slopes(list_slopes_by_force(data, runs, procedure.correction.mass_kg, true)));
+std::vector<RunResistance> list_resistances(const CoastdownData& data, const std::vector<std::string>& without,
+                                            const RoadLoadProcedure& procedure) {
+  std::vector<RunResistance> runs;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const std::string name = name_of_run(data.runs[i], data);
+    if (std::find(without.begin(), without.end(), name) != without.end()) continue;
+    RunResistance of_run{i, {}, {}};
+    for (const ProcedurePoint& point : procedure.points) {
+      if (point.run != name) continue;
+      of_run.speed_m_s.push_back(point.speed_m_s);
+      of_run.force_N.push_back(procedure.tested.force_per_unit * point.measured);
+    }
+    if (!of_run.speed_m_s.empty()) runs.push_back(std::move(of_run));
+  }
+  return runs;
 }
 
-void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, const MeasuredForce& force,
-                    RoadLoadProcedure& procedure) {
+void doubt_recorded_conditions(const CoastdownData& data, const std::string& column, SlopeForce slope_force,
+                               RoadLoadProcedure& procedure) {
+  const std::vector<RunResistance> runs = list_resistances(data, {}, procedure);
+  const double drag_N_s2_per_m2 = procedure.tested.force_per_unit * procedure.as_tested(2);
+  add_warnings(doubt_winds(list_winds_by_force(data, runs, drag_N_s2_per_m2), "the headings show a wind of", column),
+               procedure);
+  const double mass_kg = procedure.correction.mass_kg;
+  if (has_recorded_slopes(data)) {
+    add_warnings(doubt_slopes(list_slopes_by_force(data, runs, mass_kg, slope_force)), procedure);
+  } else if (auto doubt = doubt_session_headings(data, runs, mass_kg)) {
+    add_warnings({std::move(*doubt)}, procedure);
+  }
+}
+
+void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, RoadLoadProcedure& procedure) {
   const std::vector<RunResistance> runs = list_resistances(data, without, procedure);
   std::map<std::size_t, double> deviations;
   for (const RunResistance& run : runs) {
@@ -354,10 +359,10 @@ void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& w
         "sessions",
         partial.size() == 1 ? "session" : "sessions", fmt::join(partial, "', '")));
   }
-  for (std::string& doubt : doubt_session_units(data, runs, force)) procedure.warnings.push_back(std::move(doubt));
-  if (auto doubt = doubt_session_headings(data, runs, procedure.correction.mass_kg)) {
-    procedure.warnings.push_back(std::move(*doubt));
-  }
+}
+
+void add_warnings(const std::vector<std::string>& warnings, RoadLoadProcedure& procedure) {
+  procedure.warnings.insert(procedure.warnings.end(), warnings.begin(), warnings.end());
 }
 
 AirFlow calc_air_flow(double speed_m_s, double against_m_s, double across_m_s) {

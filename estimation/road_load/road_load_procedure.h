@@ -84,6 +84,7 @@ struct WindLimits {
   const char* clause = "";
   const char* across_column = "crosswind_m_s";  // whose absence leaves the wind across unknown
 };
+constexpr WindLimits kWltpWind{5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"};
 /// Runs whose wind is above the limits, and a check of each limit over all runs.
 std::vector<std::string> check_winds(const CoastdownData& data, const WindLimits& limits,
                                      std::vector<RoadLoadCheck>& checks);
@@ -109,16 +110,21 @@ CoastdownData keep_runs(const CoastdownData& data, const std::vector<std::size_t
 void put_conditions(const CoastdownData& data, const RoadLoadProcedureOptions& options, const AirRule& rule,
                     RoadLoadProcedure& procedure);
 
-/// Warns where the wind (and the slope) as recorded in `data` contradict what the points of both headings show.
-/// `has_slopes`: the points are without the force of the recorded slope.
-/// `column`: that of the winds.
-void doubt_recorded_conditions(const CoastdownData& data, const std::string& column, bool has_slopes,
+/// Warns where wind and slope as recorded in `data` contradict what the points of both headings show, or, without a
+/// recorded slope, where sessions contradict each other (doubt_session_headings()).
+/// `column`: that of the winds; `slope_force`: of points with a recorded slope.
+void doubt_recorded_conditions(const CoastdownData& data, const std::string& column, SlopeForce slope_force,
                                RoadLoadProcedure& procedure);
 
-/// Warns where sessions differ, or cannot be compared: doubt_session_difference(), list_partial_sessions(),
-/// doubt_session_units(), doubt_session_headings(). The points of the runs in `without`, by name, do not count.
-void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, const MeasuredForce& force,
-                    RoadLoadProcedure& procedure);
+/// The points of each run as forces, but for the runs in `without`, by name.
+std::vector<RunResistance> list_resistances(const CoastdownData& data, const std::vector<std::string>& without,
+                                            const RoadLoadProcedure& procedure);
+
+/// Warns where sessions differ, or cannot be compared: doubt_session_difference(), list_partial_sessions(). The points
+/// of the runs in `without`, by name, do not count.
+void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& without, RoadLoadProcedure& procedure);
+
+void add_warnings(const std::vector<std::string>& warnings, RoadLoadProcedure& procedure);
 
 /// The result at the reference speeds, and its warnings. `speeds_m_s` are the speeds by their reference speed in km/h.
 void put_reference_result(ReferenceResult result, const std::map<int, double>& speeds_m_s,

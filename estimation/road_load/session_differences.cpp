@@ -7,6 +7,8 @@
 #include <boost/math/distributions/fisher_f.hpp>
 
 #include "estimation/road_load/road_load_checks.h"
+#include "estimation/run_checks/pooled_scatter.h"
+#include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -63,27 +65,18 @@ std::vector<SessionMean> list_session_means(const std::map<std::string, HeadingG
   return means;
 }
 
-struct Scatter {
-  double squares = 0.0;
-  double freedom = 0.0;
-};
-
 /// Of the runs about the mean of their session and heading.
-Scatter find_scatter_within(const std::map<std::string, HeadingGroups>& sessions) {
-  Scatter scatter;
+PooledScatter find_scatter_within(const std::map<std::string, HeadingGroups>& sessions) {
+  PooledScatter scatter;
   for (const auto& [name, headings] : sessions) {
-    for (const auto& [heading, values] : headings) {
-      const double mean = calc_mean(values);
-      for (const double value : values) scatter.squares += (value - mean) * (value - mean);
-      scatter.freedom += static_cast<double>(values.size()) - 1.0;
-    }
+    for (const auto& [heading, values] : headings) scatter.add_group(values);
   }
   return scatter;
 }
 
 /// Of the means of session and heading about what their session and their heading make of them: that of single runs, or
 /// less.
-Scatter find_scatter_of_pairs(const std::map<std::string, HeadingGroups>& sessions) {
+PooledScatter find_scatter_of_pairs(const std::map<std::string, HeadingGroups>& sessions) {
   const std::vector<SessionMean> means = list_session_means(sessions);
   std::map<int, double> heading_means;
   double mean = 0.0;
@@ -93,14 +86,15 @@ Scatter find_scatter_of_pairs(const std::map<std::string, HeadingGroups>& sessio
       heading_means[heading] += calc_mean(values) / static_cast<double>(sessions.size());
     }
   }
-  Scatter scatter;
+  PooledScatter scatter;
   for (const SessionMean& session : means) {
     for (const auto& [heading, values] : sessions.at(session.name)) {
       const double rest = calc_mean(values) - session.value - heading_means.at(heading) + mean;
       scatter.squares += rest * rest;
     }
   }
-  scatter.freedom = (static_cast<double>(sessions.size()) - 1.0) * (static_cast<double>(heading_means.size()) - 1.0);
+  scatter.degrees_of_freedom =
+      (static_cast<double>(sessions.size()) - 1.0) * (static_cast<double>(heading_means.size()) - 1.0);
   return scatter;
 }
 
@@ -121,6 +115,21 @@ void put_farthest(const std::vector<SessionMean>& means, SessionDifference& diff
   difference.relative = means[1].value - means[0].value;
 }
 
+/// Air of the session that is farthest, if it is not that of the others: "; its air had 5.0 degC, ...".
+std::string describe_air(const CoastdownData& data, const std::string& farthest) {
+  constexpr double kLeast_K = 2.0;  // Assumed: 2 % of the rolling loss
+  std::vector<double> there_K, others_K;
+  for (const CoastdownRun& run : data.runs) {
+    if (run.conditions.ambient_K.empty()) return "";
+    (run.session == farthest ? there_K : others_K).push_back(calc_mean(run.conditions.ambient_K));
+  }
+  if (there_K.empty() || others_K.empty()) return "";
+  const double there = calc_mean(there_K), others = calc_mean(others_K);
+  if (std::abs(there - others) < kLeast_K) return "";
+  return fmt::format(" (its air had {:.1f} degC, that of the others {:.1f} degC)", there - kZeroCelsius_K,
+                     others - kZeroCelsius_K);
+}
+
 }  // namespace
 
 std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
@@ -129,12 +138,12 @@ std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
   const std::map<std::string, HeadingGroups> whole = keep_whole(all);
   const std::vector<SessionMean> means = list_session_means(whole);
   const double between_freedom = static_cast<double>(means.size()) - 1.0;
-  Scatter runs = find_scatter_within(all);
+  PooledScatter runs = find_scatter_within(all);
   if (winds == SessionWinds::kInDeviations && !means.empty()) {
-    const Scatter of_pairs = find_scatter_of_pairs(whole);
-    if (of_pairs.freedom > runs.freedom) runs = of_pairs;
+    const PooledScatter of_pairs = find_scatter_of_pairs(whole);
+    if (of_pairs.degrees_of_freedom > runs.degrees_of_freedom) runs = of_pairs;
   }
-  if (between_freedom < 1.0 || runs.freedom < 1.0) return std::nullopt;
+  if (between_freedom < 1.0 || runs.degrees_of_freedom < 1.0) return std::nullopt;
   double weights = 0.0, weighted = 0.0, plain = 0.0;
   for (const SessionMean& mean : means) {
     weights += mean.weight;
@@ -153,9 +162,9 @@ std::optional<SessionDifference> compare_sessions(const CoastdownData& data,
     difference.p_value = between > 0.0 ? 0.0 : 1.0;
     return difference;
   }
-  const boost::math::fisher_f distribution(between_freedom, runs.freedom);
-  difference.p_value = boost::math::cdf(
-      boost::math::complement(distribution, between / between_freedom / (runs.squares / runs.freedom)));
+  const boost::math::fisher_f distribution(between_freedom, runs.degrees_of_freedom);
+  difference.p_value =
+      boost::math::cdf(boost::math::complement(distribution, between / between_freedom / runs.variance()));
   return difference;
 }
 
@@ -179,10 +188,11 @@ std::optional<std::string> doubt_session_difference(const CoastdownData& data,
   if (!found.has_value() || found->p_value >= kUnlikely || found->relative_sd < kLeastShare) return std::nullopt;
   return fmt::format(
       "the sessions differ by a standard deviation of {:.1f} % of the force, more than their noise explains: the force "
-      "in session '{}' is {:.1f} % {} than {}. Where sessions cover different speeds, this bends the curve",
+      "in session '{}' is {:.1f} % {} than {}{}. Where sessions cover different speeds, this bends the curve",
       100.0 * found->relative_sd, found->farthest, 100.0 * std::abs(found->relative),
       found->relative > 0.0 ? "higher" : "lower",
-      found->other.empty() ? "the mean of the others" : fmt::format("in session '{}'", found->other));
+      found->other.empty() ? "the mean of the others" : fmt::format("in session '{}'", found->other),
+      describe_air(data, found->farthest));
 }
 
 }  // namespace rollrig::estimation

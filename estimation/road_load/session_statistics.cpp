@@ -127,8 +127,11 @@ double calc_mean(const std::vector<double>& values) {
 std::map<std::size_t, double> find_run_deviations(const RoadLoadFit& fit) {
   std::map<std::size_t, std::pair<double, double>> sums;
   for (const RoadLoadPoint& point : fit.points) {
-    const double weight = point.fit_N * point.fit_N / (point.sd_N * point.sd_N);
-    sums[point.run].first += weight * point.residual_N / point.fit_N;
+    const double load_N = fit.as_tested.A_N +
+                          point.speed_m_s * (fit.as_tested.B_N_s_per_m + point.speed_m_s * fit.as_tested.C_N_s2_per_m2);
+    if (load_N <= 0.0) continue;
+    const double weight = load_N * load_N / (point.sd_N * point.sd_N);
+    sums[point.run].first += weight * point.residual_N / load_N;
     sums[point.run].second += weight;
   }
   std::map<std::size_t, double> deviations;

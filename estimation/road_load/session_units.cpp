@@ -10,12 +10,14 @@
 #include <fmt/format.h>
 #include <Eigen/QR>
 
+#include "estimation/road_load/road_force_reference.h"
 #include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
 
-/// Points of force over speed, and a parabola through them with a part that the headings have with opposite signs.
+/// Points of force over speed, and a parabola through them beside a force with opposite signs in the headings. Points
+/// without a positive force do not count.
 class ForceCurve {
  public:
   void add(double speed_m_s, double force_N, int heading) {
@@ -58,7 +60,7 @@ class ForceCurve {
   double high_m_s_ = 0.0;
 };
 
-/// What speeds and forces are multiplied by to be in SI, where the column was read as km/h.
+/// Factors that correct speeds and forces if the column is in another unit but was read as km/h.
 struct Conversion {
   double speed = 1.0;
   double force = 1.0;
@@ -81,6 +83,8 @@ double calc_difference(const ForceCurve& sessions, const ForceCurve& others, con
   return std::sqrt(squares / kSpeeds);
 }
 
+constexpr double kAgreement = 0.05;
+
 /// Sessions that agree with the others in another unit.
 struct UnitDoubt {
   std::vector<std::string> sessions;
@@ -89,11 +93,11 @@ struct UnitDoubt {
   double in_unit = 0.0;
 };
 
-/// The sessions that are nearer to a reference, which is one of them, in another unit than as they stand, held against
-/// those that agree with the reference as they stand.
-std::optional<UnitDoubt> find_other_unit(const std::map<std::string, ForceCurve>& sessions, const ForceCurve& reference,
-                                         const Conversion& conversion) {
-  constexpr double kApart = 0.1, kAgree = 0.05, kClearly = 3.0;
+/// Splits the sessions into those that match the reference, one of them, after conversion and those that match it as
+/// they stand. Compares the two groups.
+std::optional<UnitDoubt> test_unit_against(const std::map<std::string, ForceCurve>& sessions,
+                                           const ForceCurve& reference, const Conversion& conversion) {
+  constexpr double kApart = 0.1, kClearly = 3.0;
   ForceCurve others, doubted;
   UnitDoubt doubt;
   for (const auto& [name, curve] : sessions) {
@@ -110,16 +114,16 @@ std::optional<UnitDoubt> find_other_unit(const std::map<std::string, ForceCurve>
   doubt.as_it_stands = calc_difference(doubted, others, {});
   doubt.in_unit = calc_difference(doubted, others, conversion);
   const bool is_clear =
-      doubt.as_it_stands >= kApart && doubt.in_unit < kAgree && kClearly * doubt.in_unit < doubt.as_it_stands;
+      doubt.as_it_stands >= kApart && doubt.in_unit < kAgreement && kClearly * doubt.in_unit < doubt.as_it_stands;
   return is_clear ? std::make_optional(doubt) : std::nullopt;
 }
 
-/// With every session as the reference in turn, that which agrees best.
-std::optional<UnitDoubt> find_other_unit(const std::map<std::string, ForceCurve>& sessions, const std::string& unit,
+/// Takes each session as the reference and keeps the split whose groups agree best.
+std::optional<UnitDoubt> find_unit_doubt(const std::map<std::string, ForceCurve>& sessions, const std::string& unit,
                                          const Conversion& conversion) {
   std::optional<UnitDoubt> best;
   for (const auto& [name, reference] : sessions) {
-    std::optional<UnitDoubt> doubt = find_other_unit(sessions, reference, conversion);
+    std::optional<UnitDoubt> doubt = test_unit_against(sessions, reference, conversion);
     if (!doubt.has_value() || (best.has_value() && best->in_unit <= doubt->in_unit)) continue;
     best = std::move(doubt);
     best->unit = unit;
@@ -127,15 +131,16 @@ std::optional<UnitDoubt> find_other_unit(const std::map<std::string, ForceCurve>
   return best;
 }
 
-std::string describe_unit_doubt(const UnitDoubt& doubt, const MeasuredForce& force) {
+std::string describe_unit_doubt(const UnitDoubt& doubt, const ForceSource& source) {
   const bool is_one = doubt.sessions.size() == 1;
   return fmt::format(
-      "the forces of {} '{}' over speed {}, and agree with them within 5 % if {} values of {} are in {}: are they?",
+      "the forces of {} '{}' over speed {}, and agree with them within {:.0f} % if {} values of {} are in {}: are "
+      "they?",
       is_one ? "session" : "sessions", fmt::join(doubt.sessions, "', '"),
       std::isfinite(doubt.as_it_stands)
           ? fmt::format("differ from those of the others by {:.0f} %", 100.0 * doubt.as_it_stands)
           : "have hardly a speed in common with those of the others",
-      is_one ? "its" : "their", force.speed_columns, doubt.unit);
+      100.0 * kAgreement, is_one ? "its" : "their", source.speed_columns, doubt.unit);
 }
 
 /// Those whose points decide a curve.
@@ -155,20 +160,32 @@ std::map<std::string, ForceCurve> fit_sessions(const CoastdownData& data, const 
 
 }  // namespace
 
-MeasuredForce force_of_coastdowns(const CoastdownData& data) {
-  return {true, data.runs.front().bins.empty() ? "speed_km_h" : "v_hi_kmh and v_lo_kmh"};
-}
-
 std::vector<std::string> doubt_session_units(const CoastdownData& data, const std::vector<RunResistance>& runs,
-                                             const MeasuredForce& force) {
+                                             const ForceSource& source) {
   const std::map<std::string, ForceCurve> sessions = fit_sessions(data, runs);
   std::vector<std::string> doubts;
   for (const auto& [unit, factor] : {std::pair("mph", kMph_m_s * kKmhPerMs), std::pair("m/s", kKmhPerMs)}) {
-    const Conversion conversion{factor, force.is_from_speeds ? factor : 1.0};
-    if (const auto doubt = find_other_unit(sessions, unit, conversion))
-      doubts.push_back(describe_unit_doubt(*doubt, force));
+    const Conversion conversion{factor, source.is_from_speeds ? factor : 1.0};
+    if (const auto doubt = find_unit_doubt(sessions, unit, conversion))
+      doubts.push_back(describe_unit_doubt(*doubt, source));
   }
   return doubts;
+}
+
+std::vector<std::string> doubt_session_units(const CoastdownData& data) {
+  constexpr double kMass_kg = 1.0;  // forces are compared with each other
+  std::vector<RunResistance> runs;
+  for (const FitRun& run : make_fit_runs(data, RoadLoadFitOptions(), kMass_kg)) {
+    runs.push_back({run.index, {}, {}});
+    for (const FitBin& bin : run.bins) {
+      const std::optional<BinForce> found = find_bin_force(run, bin, kMass_kg);
+      if (!found.has_value()) continue;
+      runs.back().speed_m_s.push_back(found->speed_m_s);
+      runs.back().force_N.push_back(found->force_N);
+    }
+  }
+  const bool is_trace = data.runs.front().bins.empty();
+  return doubt_session_units(data, runs, {/*is_from_speeds=*/true, is_trace ? "speed_km_h" : "v_hi_kmh and v_lo_kmh"});
 }
 
 }  // namespace rollrig::estimation

@@ -9,12 +9,11 @@
 namespace rollrig::estimation {
 
 /// Where forces over speed come from.
-struct MeasuredForce {
+struct ForceSource {
   bool is_from_speeds = true;  // m dv/dt
   std::string speed_columns;   // as files name them
 };
 
-MeasuredForce force_of_coastdowns(const CoastdownData& data);
 
 /// The sessions whose forces over speed agree with those of the others if their speeds are in mph or m/s, and do not
 /// agree as they stand.
@@ -22,10 +21,15 @@ MeasuredForce force_of_coastdowns(const CoastdownData& data);
 ///           stand c = 1, in mph c = 1.609, in m/s c = 3.6
 /// Symbols   F_s, F_o parabolas through the forces of the sessions in doubt and of the others, by relative least
 ///           squares; d = c where the force is found from the speeds (m dv/dt), d = 1 where it is measured
-/// Validity  five points and a ratio of speeds of 1.5 at least
-/// Assumed: doubted where e is above 0.1 as the speeds stand, and below 0.05 and a third of that in the other unit
+///           The parabolas have a force with opposite signs in the headings beside them
+/// Validity  sessions of five points at least. e is infinite if the speeds that both have span less than a factor of
+///           1.5. A session whose e from the others is above 0.1 as it stands and in the other unit is left out
+/// Assumed: doubted if e is above 0.1 as the speeds stand, and below 0.05 and a third of that in the other unit
 /// Checked   tests/estimation/session_units_test.cpp
 std::vector<std::string> doubt_session_units(const CoastdownData& data, const std::vector<RunResistance>& runs,
-                                             const MeasuredForce& force);
+                                             const ForceSource& source);
+
+/// The same of coastdowns, by the forces over their bins (RoadLoadFitOptions), whatever of them a method uses.
+std::vector<std::string> doubt_session_units(const CoastdownData& data);
 
 }  // namespace rollrig::estimation

@@ -159,8 +159,8 @@ bool can_differ(const TorqueFile& file) {
 
 /// Takes out runs whose samples are those of another run; warns of them.
 void leave_out_repeated_torques(TorqueFile& file, std::vector<std::string>& warnings) {
-  constexpr double kWhole = 0.9;
-  constexpr std::size_t kFewestSamples = 4;
+  constexpr double kWhole = 0.9;             // Assumed: as a copy may lack some rows
+  constexpr std::size_t kFewestSamples = 4;  // Assumed: fewer agree by chance
   if (!can_differ(file)) return;
   const std::size_t runs = file.runs.runs.size();
   std::vector<std::size_t> samples(runs, 0);
@@ -384,9 +384,8 @@ ReferenceTorques find_reference_torques(const TorqueFile& file, const RoadLoadPr
   return torques;
 }
 
-/// Names of the runs, and a point for each of their torques.
+/// A point for each torque of the runs.
 void put_torque_points(const TorqueFile& file, const ReferenceTorques& torques, RoadLoadProcedure& procedure) {
-  for (const ReferenceRun& run : torques.runs) procedure.run_names.push_back(run.name);
   for (std::size_t i = 0; i < file.measurements.size(); ++i) {
     const TorqueMeasurement& at = file.measurements[i];
     const ReferenceRun& run = torques.runs[at.run];
@@ -395,7 +394,7 @@ void put_torque_points(const TorqueFile& file, const ReferenceTorques& torques, 
   }
 }
 
-/// What torques are to forces, and the sensors that they come from.
+/// The force of a torque, and the speeds and torques that its uncertainty depends on.
 void put_torque_scale(const DynamicRadius& radius, const std::vector<MeanTorque>& means, TestedRoadLoad& tested) {
   tested.in_proportion_to_mass = false;
   tested.force_per_unit = kDrivelineFactor / radius.radius_m;
@@ -406,8 +405,11 @@ void put_torque_scale(const DynamicRadius& radius, const std::vector<MeanTorque>
 
 void doubt_torques(const TorqueFile& file, const std::vector<std::string>& windy, RoadLoadProcedure& procedure) {
   doubt_units(procedure);
-  doubt_sessions(file.runs, windy, {false, "reference_km_h and speed_km_h"}, procedure);
-  doubt_recorded_conditions(file.runs, "wind_m_s", false, procedure);
+  doubt_sessions(file.runs, windy, procedure);
+  add_warnings(doubt_session_units(file.runs, list_resistances(file.runs, windy, procedure),
+                                   {/*is_from_speeds=*/false, "reference_km_h and speed_km_h"}),
+               procedure);
+  doubt_recorded_conditions(file.runs, "wind_m_s", SlopeForce::kIncluded, procedure);
   const models::RoadLoad<double> load{procedure.road_load(0), procedure.road_load(1), procedure.road_load(2)};
   if (const auto doubt = doubt_torque_scale(load, procedure.correction.mass_kg, procedure.wheel_radius_m)) {
     procedure.warnings.push_back(*doubt);
@@ -425,14 +427,14 @@ RoadLoadProcedure evaluate_torque_meter(const std::string& path, const RoadLoadP
   select_torque_runs(options, sessions, file);
   leave_out_repeated_torques(file, procedure.warnings);
   std::vector<RoadLoadCheck> wind_checks;
-  const std::vector<std::string> windy =
-      check_winds(file.runs, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, wind_checks);
+  const std::vector<std::string> windy = check_winds(file.runs, kWltpWind, wind_checks);
   require_reference_speeds(path, file);
   const DynamicRadius radius = find_wheel_radius(path, file, options, procedure.warnings);
   procedure.wheel_radius_m = radius.radius_m;
   const double effective_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
   const ReferenceTorques torques = find_reference_torques(file, options, effective_kg, radius.radius_m);
   require_driving_torques(path, file, torques.means);
+  for (const ReferenceRun& run : torques.runs) procedure.run_names.push_back(run.name);
   put_torque_points(file, torques, procedure);
   put_reference_result(evaluate_reference_runs(torques.runs, torques.speeds_m_s, {false, 1.0, "torques"}, windy),
                        torques.speeds_m_s, procedure);

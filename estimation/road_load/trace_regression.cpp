@@ -272,7 +272,7 @@ bool has_yaw(const CoastdownData& data, bool on_board) {
 
 /// Warns where the anemometers at the vehicle and beside the road contradict each other; whether they do.
 bool do_anemometers_contradict(const CoastdownData& beside, const CoastdownData& on_board,
-                         std::vector<std::string>& warnings) {
+                               std::vector<std::string>& warnings) {
   bool contradict = false;
   struct Component {
     std::vector<double> CoastdownConditions::*values;
@@ -324,7 +324,7 @@ void doubt_vane(const CoastdownData& data, const std::vector<TraceRun>& traces, 
 /// Warns of yaw angles that are far below what the wind along the road makes likely: they are in rad and not in deg.
 void doubt_yaw_unit(const CoastdownData& winds, const std::vector<TraceRun>& traces,
                     std::vector<std::string>& warnings) {
-  constexpr double kLeastWind_m_s = 0.5;     // Assumed
+  constexpr double kLeastWind_m_s = 0.5;      // Assumed
   constexpr double kLeastShare = 1.0 / 15.0;  // Assumed: of the wind across in that along; of angles in rad it is 1/57
   double squares = 0.0, cross_squares = 0.0, n = 0.0;
   for (const TraceRun& trace : traces) {
@@ -392,7 +392,7 @@ std::vector<TraceRun> keep_pairs(const CoastdownData& data, std::vector<TraceRun
   for (const auto& way : ways) {
     for (std::size_t i = pairs; i < way.size(); ++i) {
       warnings.push_back(fmt::format("run {} is not used: no run of the opposite heading goes with it",
-                                               name_of_run(data.runs[way[i]->index], data)));
+                                     name_of_run(data.runs[way[i]->index], data)));
     }
   }
   if (kept.size() < 2 * kFewest) {
@@ -404,8 +404,8 @@ std::vector<TraceRun> keep_pairs(const CoastdownData& data, std::vector<TraceRun
                       ""});
   }
   checks.push_back({"pairs", kept.size() >= 2 * kWanted ? CheckStatus::kPass : CheckStatus::kFail,
-                              fmt::format("{}", kept.size() / 2), ">= 5",
-                              "Regulation (EU) 2017/1151, 4.3.2.4 of Sub-Annex 4; SAE J1263"});
+                    fmt::format("{}", kept.size() / 2), ">= 5",
+                    "Regulation (EU) 2017/1151, 4.3.2.4 of Sub-Annex 4; SAE J1263"});
   return kept;
 }
 
@@ -602,8 +602,9 @@ RoadLoadProcedure evaluate_traces_once(const CoastdownFile& file, const RoadLoad
     }
   }
   doubt_units(procedure);
-  doubt_sessions(file.data, {}, force_of_coastdowns(file.data), procedure);
-  doubt_recorded_conditions(winds, on_board ? "air_speed_km_h" : "wind_m_s", !terms.has_slope, procedure);
+  doubt_sessions(file.data, {}, procedure);
+  add_warnings(doubt_session_units(file.data), procedure);
+  doubt_recorded_conditions(winds, on_board ? "air_speed_km_h" : "wind_m_s", SlopeForce::kSubtracted, procedure);
   return procedure;
 }
 

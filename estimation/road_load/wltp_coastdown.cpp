@@ -117,7 +117,15 @@ std::vector<ReferenceRun> list_reference_runs(const CoastdownData& data, const R
                     positions[runs.size()]});
     report_lost_speeds(run, runs.back(), edges.lost_km_h, warnings);
   }
-  const bool none = std::all_of(runs.begin(), runs.end(), [](const ReferenceRun& run) { return run.values.empty(); });
+  std::vector<std::string> without;
+  for (const ReferenceRun& run : runs) {
+    if (run.values.empty()) without.push_back(run.name);
+  }
+  const bool none = without.size() == runs.size();
+  if (!none && !without.empty()) {
+    warnings.push_back(fmt::format("not used, without a time from v + 5 to v - 5 km/h of a reference speed v: {} {}",
+                                   without.size() == 1 ? "run" : "runs", fmt::join(without, ", ")));
+  }
   if (none && !data.runs.empty() && !data.runs.front().bins.empty()) {
     throw InputError({"no bins end at v + 5 and v - 5 km/h of a reference speed v", "", 0, "v_hi_kmh", "",
                       "edges at 15, 25, 35 ... km/h: the reference speeds are 20, 30, 40 ... km/h", ""});
@@ -193,16 +201,15 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
   procedure.kind = RoadLoadProcedureKind::kWltp;
   put_masses(options, procedure);
   std::vector<RoadLoadCheck> wind_checks;
-  const std::vector<std::string> windy =
-      check_winds(file.data, {5.0, 8.0, 2.0, "UN GTR 15 Annex 4, 4.1.1.1.1"}, wind_checks);
+  const std::vector<std::string> windy = check_winds(file.data, kWltpWind, wind_checks);
   const std::vector<ReferenceRun> runs = list_reference_runs(file.data, options, procedure.warnings);
   require_speeds_in_km_h(file, runs);
   std::map<int, double> speeds_m_s;
   for (int km_h = kLowestReference_km_h; km_h <= kHighestReference_km_h; km_h += kReferenceStep_km_h) {
     speeds_m_s[km_h] = km_h * kMeterPerSecond;
   }
-  const double mass_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
-  const PairRule rule{true, mass_kg * 2.0 * kHalfStep_km_h * kMeterPerSecond, "coastdown times"};
+  const double effective_mass_kg = procedure.correction.mass_kg + procedure.rotating_mass_kg;
+  const PairRule rule{true, effective_mass_kg * 2.0 * kHalfStep_km_h * kMeterPerSecond, "coastdown times"};
   put_reference_result(evaluate_reference_runs(runs, speeds_m_s, rule, windy), speeds_m_s, procedure);
   put_used_conditions(file.data, options, std::move(wind_checks), procedure);
   if (file.data.runs.front().conditions.wind_m_s.empty()) {
@@ -215,9 +222,10 @@ RoadLoadProcedure evaluate_wltp_coastdowns(const CoastdownFile& file, const Road
   finish_procedure(options, procedure);
   put_coastdown_points(runs, rule, procedure);
   put_fitted(procedure);
-  doubt_sessions(file.data, windy, force_of_coastdowns(file.data), procedure);  // also of rejected pairs
+  doubt_sessions(file.data, windy, procedure);  // also of rejected pairs
+  add_warnings(doubt_session_units(file.data), procedure);
   doubt_units(procedure);
-  doubt_recorded_conditions(file.data, "wind_m_s", false, procedure);
+  doubt_recorded_conditions(file.data, "wind_m_s", SlopeForce::kIncluded, procedure);
   return procedure;
 }
 

@@ -120,3 +120,17 @@ TEST_CASE("runs that have no fit together are named, and the others have their r
   const double A_N = fit.others != nullptr ? fit.others->load.A_N : fit.load.A_N;
   CHECK(A_N == Approx(120.0).epsilon(0.02));
 }
+
+TEST_CASE("on a slope, where the force downhill is small, no run is odd that scatters as the others", "[slow]") {
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    tests::CoastdownStudy study;
+    study.load.A_N = 100.0;
+    study.slope = 0.0035;
+    study.run_force_sd_N = 3.0;
+    study.run_wind_sd_m_s = 0.2;
+    CoastdownData data = tests::simulate_coastdowns(study, seed);
+    alarms += check_coastdowns(data, make_options()).doubts.empty() ? 0 : 1;
+  }
+  CHECK(alarms <= 4);  // one of 200 is meant; five or more of 150 are one in a thousand
+}

@@ -175,7 +175,7 @@ TEST_CASE("a small slope or wind in the direction of travel is doubted, others o
     for (const Warnings& warnings : list_warnings(file, study.mass_kg)) found += count_of(warnings, text);
     return found;
   };
-  CHECK(count(sloped, "the slope in the direction of travel") == 3);  // WLTP does not use it
+  CHECK(count(sloped, "the slope in the direction of travel") == 4);
   CHECK(count(surveyed, "the headings show a slope") == 0);
   CHECK(count(headwind, "the headwind of the vehicle") == 4);
   CHECK(count(make_recorded_file(study, as_it_is), "the headings show") == 0);

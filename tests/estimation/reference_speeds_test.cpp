@@ -112,6 +112,35 @@ TEST_CASE("reference speeds: of a rejected pair, the run that was braked is name
   CHECK_THAT(result.warnings.front(), Contains("runs 7 and 8") && Contains("; run 8 has 30 % more resistance"));
 }
 
+TEST_CASE("reference speeds: of three pairs, all of which are needed, the braked run is named", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.001, -0.002, 0.002});
+  for (auto& [km_h, value] : runs[2].values) value *= 1.2;
+  const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings.front(),
+             Contains("runs 3 and 4 is far off, but stays") && Contains("run 3 has 20 % more resistance"));
+}
+
+TEST_CASE("reference speeds: a session that is wholly rejected is no part of the intervals", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.001, -0.002, 0.002, 0.0, -0.001, 0.0, 1.001, 1.0, 0.999});
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].session = i < 6 ? "a" : i < 12 ? "b" : "c";
+  const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  CHECK(count_warnings(result, "all 3 pairs of session 'c' are rejected") == 1);
+  CHECK(count_warnings(result, "more from session to session") == 0);
+  CHECK(std::sqrt(result.covariance(2, 2)) < 0.01 * result.coefficients(2));
+}
+
+TEST_CASE("reference speeds: of a rejected pair whose runs are alike, none is named", "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.001, -0.002, 0.002, 0.2, -0.001, 0.0});
+  CHECK(count_warnings(evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {}), "; run") == 0);
+  // a pair that is rejected for its wind has no run that is named for its resistance
+  runs = make_reference_runs({0.001, -0.002, 0.002, 0.0, -0.001, 0.0});
+  for (auto& [km_h, value] : runs[7].values) value *= 1.3;
+  const ReferenceResult windy = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {"8"});
+  CHECK(count_warnings(windy, "runs 7 and 8 is rejected: wind of run 8") == 1);
+  CHECK(count_warnings(windy, "; run") == 0);
+}
+
 TEST_CASE("reference speeds: split runs are paired part by part", "[fast]") {
   std::vector<ReferenceRun> runs = make_reference_runs({0.0, 0.0, 0.0});
   std::vector<ReferenceRun> low = make_reference_runs({0.02, 0.02, 0.02, 0.02});

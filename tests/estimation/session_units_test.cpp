@@ -23,17 +23,6 @@ namespace {
 constexpr double kMph = kMph_m_s * kKmhPerMs;
 constexpr double kMetersPerSecond = kKmhPerMs;
 
-/// Whole runs of the WLTP that scatter.
-CoastdownStudy make_scattered_study() {
-  CoastdownStudy study;
-  study.pairs = 4;
-  study.run_force_sd_N = 3.0;
-  study.run_wind_sd_m_s = 0.2;
-  study.from_km_h = 138.0;
-  study.to_km_h = 12.0;
-  return study;
-}
-
 CoastdownData simulate_like_sessions(const std::vector<std::string>& names, const CoastdownStudy& study) {
   std::vector<std::pair<std::string, CoastdownStudy>> studies;
   for (const std::string& name : names) studies.emplace_back(name, study);
@@ -42,8 +31,9 @@ CoastdownData simulate_like_sessions(const std::vector<std::string>& names, cons
 
 }  // namespace
 
-TEST_CASE("a session in mph is named with its unit by every method, and none of its runs is odd", "[fast]") {
-  const CoastdownStudy study = make_scattered_study();
+TEST_CASE("a session in mph is named with its unit by the default method, j1263 and wltp, and none of its runs is odd",
+          "[fast]") {
+  const CoastdownStudy study = tests::make_whole_runs();
   const CoastdownData data = with_speeds_over(join_sessions(study, study), "pm", kMph);
   for (const auto& [method, warnings] : tests::list_warnings_by_method(data)) {
     INFO(method);
@@ -53,8 +43,8 @@ TEST_CASE("a session in mph is named with its unit by every method, and none of 
   CHECK(fit_checked(data).doubts.empty());
 }
 
-TEST_CASE("two of four sessions in mph are named by every method", "[fast]") {
-  CoastdownData data = simulate_like_sessions({"a", "b", "c", "d"}, make_scattered_study());
+TEST_CASE("two of four sessions in mph are named by the default method, j1263 and wltp", "[fast]") {
+  CoastdownData data = simulate_like_sessions({"a", "b", "c", "d"}, tests::make_whole_runs());
   data = with_speeds_over(with_speeds_over(data, "b", kMph), "d", kMph);
   for (const auto& [method, warnings] : tests::list_warnings_by_method(data)) {
     INFO(method);
@@ -63,8 +53,32 @@ TEST_CASE("two of four sessions in mph are named by every method", "[fast]") {
   }
 }
 
+TEST_CASE("one session of three in m/s is named by the default method, j1263 and wltp", "[fast]") {
+  const CoastdownData data =
+      with_speeds_over(simulate_like_sessions({"a", "b", "c"}, tests::make_whole_runs()), "b", kMetersPerSecond);
+  for (const auto& [method, warnings] : tests::list_warnings_by_method(data)) {
+    INFO(method);
+    CHECK(has_warning(warnings, "the forces of session 'b' over speed"));
+    CHECK(has_warning(warnings, "are in m/s: are they?"));
+  }
+}
+
+TEST_CASE("bins of a session in mph, which no reference speed has, are not dropped in silence by wltp", "[fast]") {
+  CoastdownData data = tests::cut_into_bins(simulate_like_sessions({"a", "b", "c"}, tests::make_whole_runs()), 5.0);
+  for (CoastdownRun& run : data.runs) {
+    if (run.session != "b") continue;
+    for (auto& bin : run.bins) {
+      bin.high_m_s /= kMph;
+      bin.low_m_s /= kMph;
+    }
+  }
+  const auto procedure = tests::fit_reference_speeds(data);
+  CHECK(has_warning(procedure, "not used, without a time from v + 5 to v - 5 km/h"));
+  CHECK(has_warning(procedure, "if its values of v_hi_kmh and v_lo_kmh are in mph"));
+}
+
 TEST_CASE("sessions in m/s are told from the one in km/h, although they are more", "[fast]") {
-  CoastdownData data = simulate_like_sessions({"am", "night", "pm"}, make_scattered_study());
+  CoastdownData data = simulate_like_sessions({"am", "night", "pm"}, tests::make_whole_runs());
   data = with_speeds_over(with_speeds_over(data, "pm", kMetersPerSecond), "night", kMetersPerSecond);
   const auto fit = fit_checked(data);
   CHECK(has_warning(fit, "the forces of sessions 'night', 'pm' over speed"));
@@ -72,7 +86,7 @@ TEST_CASE("sessions in m/s are told from the one in km/h, although they are more
 }
 
 TEST_CASE("a session in mph and one in m/s are each told from those in km/h", "[fast]") {
-  CoastdownData data = simulate_like_sessions({"a", "b", "c", "d"}, make_scattered_study());
+  CoastdownData data = simulate_like_sessions({"a", "b", "c", "d"}, tests::make_whole_runs());
   data = with_speeds_over(with_speeds_over(data, "b", kMph), "d", kMetersPerSecond);
   const auto fit = fit_checked(data);
   CHECK(has_warning(fit, "if its values of speed_km_h are in mph"));

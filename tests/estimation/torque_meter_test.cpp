@@ -26,7 +26,9 @@ struct TorqueStudy {
   double torque_error_Nm = 0.0;
   double wheel_speed_error_Hz = 0.0;
   double speed_error_km_h = 0.0;
-  int without_top = 0;  // so many runs, from the first on, do not have the highest reference speed
+  double slope = 0.0;            // uphill in the + heading
+  bool is_pm_exchanged = false;  // two sessions; the headings of the second are written the wrong way round
+  int without_top = 0;           // so many runs, from the first on, do not have the highest reference speed
 };
 
 constexpr double kRadius_m = 0.32;
@@ -36,7 +38,7 @@ constexpr double kTorque[] = {40.0, 0.6, 0.13};  // Nm and m/s
 std::string write_torques(const TorqueStudy& study, bool with_times = true) {
   RandomStream random(5, "torque");
   std::vector<std::string> columns{
-      "reference_km_h", "speed_km_h",   "wheel_torque_Nm",      "wheel_speed_Hz", "run",
+      "reference_km_h", "speed_km_h",   "wheel_torque_Nm",      "wheel_speed_Hz", "run",    "session",
       "heading",        "ambient_degC", "ambient_pressure_kPa", "wind_m_s",       "vehicle"};
   if (with_times) columns.push_back("time_s");
   CsvWriter csv(columns);
@@ -53,10 +55,13 @@ std::string write_torques(const TorqueStudy& study, bool with_times = true) {
                               (kMass_kg + 48.0) * study.drift_m_s2 * kRadius_m;
         csv.add(static_cast<double>(reference));
         csv.add(3.6 * v * study.speed_scale + study.speed_error_km_h);
-        csv.add(torque + study.torque_error_Nm);
+        csv.add(torque + study.torque_error_Nm +
+                heading * kMass_kg * 9.80665 * study.slope * kRadius_m / 1.02);  // 2 % are lost before the torque meter
         csv.add(v / (2.0 * 3.14159265358979 * kRadius_m) + study.wheel_speed_error_Hz);
         csv.add(std::to_string(run + 1));
-        csv.add(std::string(heading > 0 ? "+" : "-"));
+        const bool is_exchanged = study.is_pm_exchanged && run >= study.pairs;
+        csv.add(std::string(is_exchanged ? "pm" : "am"));
+        csv.add(std::string((heading > 0) != is_exchanged ? "+" : "-"));
         csv.add(20.0);
         csv.add(100.0);
         csv.add(study.wind_m_s);
@@ -283,4 +288,21 @@ TEST_CASE("torque meter: the sign of the wind is held against the headings", "[f
     csv.replace(at, 6, ",-2,car");
   }
   CHECK_THAT(says(evaluate_torques(csv)), Contains("its sign looks reversed"));
+}
+
+TEST_CASE("torque meter: exchanged headings of a session are asked for by the slope of the road", "[fast]") {
+  TorqueStudy study;
+  study.pairs = 8;
+  study.pair_sd = 0.002;
+  study.slope = 0.004;
+  const auto find_question = [](const RoadLoadProcedure& procedure) {
+    for (const std::string& warning : procedure.warnings) {
+      if (warning.find("exchanged?") != std::string::npos) return warning;
+    }
+    return std::string();
+  };
+  CHECK(find_question(evaluate_torques(write_torques(study))).empty());
+  study.is_pm_exchanged = true;
+  CHECK_THAT(find_question(evaluate_torques(write_torques(study))),
+             Contains("+0.0040 in session 'am'") && Contains("-0.0040 in session 'pm'"));
 }

@@ -14,7 +14,7 @@ using estimation::CoastdownRun;
 CoastdownFile to_file(const CoastdownData& data) {
   CoastdownFile file;
   file.data = data;
-  file.is_trace = true;
+  file.is_trace = data.runs.front().bins.empty();
   return file;
 }
 
@@ -71,6 +71,16 @@ estimation::RoadLoadProcedure fit_reference_speeds(const CoastdownData& data) {
 bool has_warning(const std::vector<std::string>& warnings, const std::string& text) {
   return std::any_of(warnings.begin(), warnings.end(),
                      [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+}
+
+CoastdownStudy make_whole_runs() {
+  CoastdownStudy study;
+  study.pairs = 4;
+  study.run_force_sd_N = 3.0;
+  study.run_wind_sd_m_s = 0.2;
+  study.from_km_h = 138.0;
+  study.to_km_h = 12.0;
+  return study;
 }
 
 std::vector<std::pair<std::string, std::vector<std::string>>> list_warnings_by_method(const CoastdownData& data) {

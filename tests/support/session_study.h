@@ -37,7 +37,10 @@ bool has_warning(const T& fit, const std::string& text) {
   return has_warning(fit.warnings, text);
 }
 
-/// The warnings of the three methods.
+/// Whole runs of the WLTP, 138 to 12 km/h, four pairs that scatter.
+CoastdownStudy make_whole_runs();
+
+/// The warnings of the default method, of j1263 and of wltp.
 std::vector<std::pair<std::string, std::vector<std::string>>> list_warnings_by_method(
     const estimation::CoastdownData& data);
 
