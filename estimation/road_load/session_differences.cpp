@@ -8,7 +8,6 @@
 
 #include "estimation/road_load/road_load_checks.h"
 #include "estimation/run_checks/pooled_scatter.h"
-#include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -115,7 +114,7 @@ void put_farthest(const std::vector<SessionMean>& means, SessionDifference& diff
   difference.relative = means[1].value - means[0].value;
 }
 
-/// Air of the session that is farthest, if it is not that of the others: "; its air had 5.0 degC, ...".
+/// Says so if the air of the session that is farthest was not that of the others; else empty.
 std::string describe_air(const CoastdownData& data, const std::string& farthest) {
   constexpr double kLeast_K = 2.0;  // Assumed: 2 % of the rolling loss
   std::vector<double> there_K, others_K;
@@ -124,10 +123,10 @@ std::string describe_air(const CoastdownData& data, const std::string& farthest)
     (run.session == farthest ? there_K : others_K).push_back(calc_mean(run.conditions.ambient_K));
   }
   if (there_K.empty() || others_K.empty()) return "";
-  const double there = calc_mean(there_K), others = calc_mean(others_K);
-  if (std::abs(there - others) < kLeast_K) return "";
-  return fmt::format(" (its air had {:.1f} degC, that of the others {:.1f} degC)", there - kZeroCelsius_K,
-                     others - kZeroCelsius_K);
+  const double difference_K = calc_mean(there_K) - calc_mean(others_K);
+  if (std::abs(difference_K) < kLeast_K) return "";
+  return fmt::format(". The air in session '{}' was {:.1f} K {}", farthest, std::abs(difference_K),
+                     difference_K > 0.0 ? "warmer" : "colder");
 }
 
 }  // namespace

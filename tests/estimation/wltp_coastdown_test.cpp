@@ -240,8 +240,9 @@ TEST_CASE("WLTP coastdown: sessions that differ are said to, those that do not a
   study.pairs = 3;
   study.run_force_sd_N = 2.0;
   tests::SimulatedProcedure low = simulate_procedure(study, 1);
-  const auto join = [&low, &study](double factor) {
+  const auto join = [&low, &study](double factor, double colder_K = 0.0) {
     ProcedureStudy other = study;
+    other.ambient_K -= colder_K;
     other.load = {factor * study.load.A_N, factor * study.load.B_N_s_per_m, factor * study.load.C_N_s2_per_m2};
     CoastdownFile file = low.file;
     for (CoastdownRun run : simulate_procedure(other, 2).file.data.runs) {
@@ -251,6 +252,8 @@ TEST_CASE("WLTP coastdown: sessions that differ are said to, those that do not a
     return evaluate_wltp_coastdowns(file, make_wltp_options(low.mass_kg));
   };
   CHECK(has_warning(join(1.2), "the sessions differ by a standard deviation of 1"));
+  CHECK_FALSE(has_warning(join(1.2), "The air in session"));
+  CHECK(has_warning(join(1.0, 15.0), "The air in session 'pm' was 15.0 K colder"));
   CHECK_FALSE(has_warning(join(1.0), "the sessions differ"));
 }
 
