@@ -36,14 +36,15 @@ double calc_mean_total(const std::vector<double>& along, const std::vector<doubl
 }
 
 /// Mean of (measured - fitted force)/road load of a run by its name: over the road load of both headings, so that a
-/// slope or a wind that the headings have with opposite signs cancels.
-double calc_mean_deviation(const std::string& run, const RoadLoadProcedure& procedure) {
+/// slope or a wind that the headings have with opposite signs cancels. Nothing if that is nowhere positive.
+std::optional<double> find_mean_deviation(const std::string& run, const RoadLoadProcedure& procedure) {
   std::vector<double> deviations;
   for (const ProcedurePoint& point : procedure.points) {
     const double load =
         procedure.as_tested.dot(Eigen::Vector3d(1.0, point.speed_m_s, point.speed_m_s * point.speed_m_s));
     if (point.run == run && load > 0.0) deviations.push_back((point.measured - point.fitted) / load);
   }
+  if (deviations.empty()) return std::nullopt;
   return calc_mean(deviations);
 }
 
@@ -347,7 +348,8 @@ void doubt_sessions(const CoastdownData& data, const std::vector<std::string>& w
   const std::vector<RunResistance> runs = list_resistances(data, without, procedure);
   std::map<std::size_t, double> deviations;
   for (const RunResistance& run : runs) {
-    deviations[run.run] = calc_mean_deviation(name_of_run(data.runs[run.run], data), procedure);
+    const auto deviation = find_mean_deviation(name_of_run(data.runs[run.run], data), procedure);
+    if (deviation.has_value()) deviations[run.run] = *deviation;
   }
   if (auto doubt = doubt_session_difference(data, deviations, SessionWinds::kInDeviations)) {
     procedure.warnings.push_back(std::move(*doubt));
