@@ -43,12 +43,12 @@ struct Turn {
   Order& finished;
 };
 
-/// The wait for all turns, which ends with the calls of the work or with what one of them throws.
-struct Wait {
-  explicit Wait(Order& finished_) : finished(finished_) {}
-  ~Wait() { finished.acquire(); }
-  Wait(const Wait&) = delete;
-  Wait& operator=(const Wait&) = delete;
+/// Tells the thread sanitizer, on return and on an exception, that all calls of the work are finished.
+struct AcquireAtEnd {
+  explicit AcquireAtEnd(Order& finished_) : finished(finished_) {}
+  ~AcquireAtEnd() { finished.acquire(); }
+  AcquireAtEnd(const AcquireAtEnd&) = delete;
+  AcquireAtEnd& operator=(const AcquireAtEnd&) = delete;
 
   Order& finished;
 };
@@ -88,7 +88,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   };
   const auto share_out = [&] { tbb::parallel_for(std::size_t{0}, count, work_and_tell, tbb::simple_partitioner()); };
   handed_out.release();
-  const Wait wait(finished);
+  const AcquireAtEnd at_end(finished);
   if (is_at_work && threads != 1) {
     tbb::this_task_arena::isolate(share_out);  // else a thread that waits for its part would begin with another's
   } else {
