@@ -135,7 +135,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     if (const auto doubt = doubt_range(*results.range_m, *results.usable_J)) outcome.warnings.push_back(*doubt);
   }
   warn_of_map(spec, layout, outcome);
-  if (results.total.has_value()) warn_of_unused_tire(*results.total, outcome);
+  warn_of_unused_tire(spec, outcome);
   std::vector<ReportedCycle> cycles;
   if (results.consumption_J_per_m.has_value()) {
     cycles.push_back({"", "", Json::json_pointer(), "consumption_Wh_per_km", results.range_m.has_value()});

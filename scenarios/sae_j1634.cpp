@@ -88,12 +88,13 @@ struct Results {
           sections, total);
     economy.visit_cycles(visit);
     const bool has_range = economy.is_range_of_battery();
-    visit(Summary{has_range ? "The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery "
-                              "({economy.last.name}), for a range of {economy.last.range_km}. The first, cold city cycle "
-                              "differs from later ones by {first_city_excess_percent}."
-                            : "The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery "
-                              "({economy.last.name}). The first, cold city cycle differs from later ones by "
-                              "{first_city_excess_percent}. Its file has no battery, which a range would need."});
+    visit(Summary{has_range
+                      ? "The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery "
+                        "({economy.last.name}), for a range of {economy.last.range_km}. The first, cold city cycle "
+                        "differs from later ones by {first_city_excess_percent}."
+                      : "The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery "
+                        "({economy.last.name}). The first, cold city cycle differs from later ones by "
+                        "{first_city_excess_percent}. Its file has no battery, which a range would need."});
     visit(
         Summary{"The vehicle takes {economy.last.dc_consumption_Wh_per_km} out of the battery ({economy.last.name})."});
     visit(
@@ -155,7 +156,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     results.economy = evaluate_economy(spec, layout, results.sections, settings.label_factor, outcome);
   }
   warn_of_map(spec, layout, outcome);
-  if (results.total.has_value()) warn_of_unused_tire(*results.total, outcome);
+  warn_of_unused_tire(spec, outcome);
   std::vector<ReportedCycle> cycles;
   for (const CycleResult& cycle : results.economy.cycles) {
     const Json::json_pointer place = Json::json_pointer("/economy") / cycles.size();

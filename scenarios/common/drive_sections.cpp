@@ -121,11 +121,12 @@ std::string describe_wheels(const VehicleConditions& conditions, const rigs::Veh
                                               plain_name(layout.wheels.front().position));
 }
 
-void warn_of_unused_tire(const DriveSection& total, Outcome& outcome) {
-  if (total.vehicle_rr_J != 0.0) return;
+void warn_of_unused_tire(const RunSpec& spec, Outcome& outcome) {
+  if (has_tire_loss(spec)) return;
   outcome.warnings.push_back(
-      "on rig road the vehicle's [road_load] contains the losses of the tires: the model of the tire is not used, and "
-      "its energies and coefficients in the sections are 0");
+      "the vehicle's [road_load] contains the losses of the tires, and stands for them on this rig: the model of the "
+      "tire "
+      "is not used, its energies in the sections are 0, and they are not compared with the ISO coefficient");
 }
 
 void warn_of_map(const RunSpec& spec, const rigs::VehicleLayout& layout, Outcome& outcome) {

@@ -55,7 +55,7 @@ std::string describe_wheels(const VehicleConditions& conditions, const rigs::Veh
 /// Says where a drive left the map of the powertrain, by speed or by power, so that the nearest edge counted.
 void warn_of_map(const RunSpec& spec, const rigs::VehicleLayout& layout, Outcome& outcome);
 
-/// Says that the model of the tire is not used, where all rolling resistance is in a measured road load.
-void warn_of_unused_tire(const DriveSection& total, Outcome& outcome);
+/// Warns that the model of the tire is not used if a measured road load stands for it (has_tire_loss()).
+void warn_of_unused_tire(const RunSpec& spec, Outcome& outcome);
 
 }  // namespace rollrig::scenarios

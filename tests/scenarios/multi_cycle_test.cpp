@@ -202,6 +202,19 @@ TEST_CASE("a charge that loses much is doubted, and one that was measured is cal
   CHECK(find_doubt());
 }
 
+TEST_CASE("a road load that stands for the tires is said to, tires that roll are not", "[fast]") {
+  const auto says = [](const char* rig) {
+    scenarios::RunSpec spec = make_j1634(kShort, rig);
+    spec.vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", "volvo_ex30")));
+    const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+    return std::any_of(outcome.warnings.begin(), outcome.warnings.end(), [](const std::string& warning) {
+      return warning.find("the model of the tire is not used") != std::string::npos;
+    });
+  };
+  CHECK(says("road"));
+  CHECK_FALSE(says("dyno_1m2"));
+}
+
 TEST_CASE("a road load in lbf of a vehicle's file is doubted", "[fast]") {
   scenarios::RunSpec spec = tests::make_spec("drive_cycle", "a50", {"cycle=us06"}, "quasi_static");
   spec.vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", "volvo_ex30")));
