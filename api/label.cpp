@@ -220,6 +220,11 @@ TireLabel make_label(const LabelInput& input) {
   const std::optional<std::string> doubt = models::doubt_class_by_index(service);
   const bool is_new = std::find(label.warnings.begin(), label.warnings.end(), doubt) == label.warnings.end();
   if (doubt.has_value() && is_new) label.warnings.push_back(*doubt);
+  if (!input.load_index.empty()) {
+    const auto dual =
+        scenarios::doubt_class_by_size(label.tire_class, false, scenarios::parse_service_description(input.load_index));
+    if (dual.has_value()) label.warnings.push_back(*dual);
+  }
   label.text = format_label(label, input.rrc_N_per_kN.has_value() ? "given" : "simulated test of ISO 28580");
   label.json = to_text(make_label_json(label));
   return label;

@@ -203,14 +203,15 @@ void set_law(const NewTireOptions& options, const ClassValues& values, ClassTire
 
 /// Load index and speed symbol of the options and the size. Throws InputError where they contradict each other.
 ParsedServiceDescription find_service_description(const NewTireOptions& options, const TireSize& size) {
-  const ParsedServiceDescription of_size = size.load_index.empty()
-                                               ? ParsedServiceDescription{}
-                                               : parse_service_description(size.load_index + size.speed_symbol);
+  const ParsedServiceDescription of_size =
+      size.load_index.empty() ? ParsedServiceDescription{}
+                              : parse_service_description(size.load_index + size.speed_symbol, "--size");
   ParsedServiceDescription found = options.load_index.empty() ? of_size : parse_service_description(options.load_index);
   const bool has_both = of_size.load_index > 0 && !options.load_index.empty();
   const bool is_other_symbol =
       !found.speed_symbol.empty() && !of_size.speed_symbol.empty() && found.speed_symbol != of_size.speed_symbol;
-  if (has_both && (found.load_index != of_size.load_index || is_other_symbol)) {
+  const bool is_other_dual = found.dual_index > 0 && of_size.dual_index > 0 && found.dual_index != of_size.dual_index;
+  if (has_both && (found.load_index != of_size.load_index || is_other_dual || is_other_symbol)) {
     const std::string own = size.load_index + size.speed_symbol;
     throw InputError({fmt::format("the size has the load index {}", own), "command line", 0, "--load-index",
                       options.load_index, fmt::format("{}, or no --load-index", own), ""});
@@ -237,7 +238,7 @@ void set_service(const NewTireOptions& options, const ParsedServiceDescription& 
     throw InputError({mistake->what, "command line", 0, "--class", made.tire_class, mistake->allowed, ""});
   }
   made.tire.service = service;
-  made.notes["service_description.class"] = options.tire_class.empty() ? "Assumed: by size and load index" : "Given";
+  made.notes["service_description.class"] = options.tire_class.empty() ? "Assumed by size and load index" : "Given";
   made.notes["service_description.load_index"] = "Given";
   made.notes["service_description.speed_symbol"] = "Given";
   made.notes["service_description.reinforced"] = "Given";
@@ -362,8 +363,8 @@ ClassTire make_class_tire(const NewTireOptions& given) {
   require_plain_name(options.name);
   ClassTire made;
   made.load_capacity_N = find_load_capacity_N(load_index);
-  made.tire_class = options.tire_class.empty() ? find_tire_class(size, description.load_index) : options.tire_class;
-  made.class_reason = options.tire_class.empty() ? "guessed from size and load index" : "given";
+  made.tire_class = options.tire_class.empty() ? find_tire_class(size, description) : options.tire_class;
+  made.class_reason = options.tire_class.empty() ? "assumed by size and load index" : "given";
   const ClassValues& values = find_class(made.tire_class);
   const double pressure_kPa = find_iso_pressure_kPa(options, made.tire_class);
   if (!options.tir.empty()) {
@@ -382,6 +383,9 @@ ClassTire make_class_tire(const NewTireOptions& given) {
   made.tire.basis = models::TireBasis::kClass;
   NumberSetter numbers(made, base);
   set_service(options, description, made);
+  if (const auto doubt = doubt_class_by_size(made.tire_class, size.is_commercial, description)) {
+    made.warnings.push_back(*doubt);
+  }
   set_geometry(size, values, made, numbers);
   set_tests(options, values, pressure_kPa, made, numbers);
   set_stiffness(base, made.tire.iso_28580->load_N, made, numbers);

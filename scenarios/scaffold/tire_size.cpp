@@ -27,13 +27,13 @@ struct WrittenSize {
   bool is_light_truck = false;
 };
 
-/// Two or three digits, and two or three more behind a slash where there is one: the load index of twin tires.
+/// Two or three digits, and two or three more behind a slash where there is one: the load index of dual mounting.
 std::optional<std::string> take_load_index(TextCursor& cursor) {
   const auto single = cursor.take_digits(2, 3);
   if (!single.has_value() || !cursor.take('/')) return single;
-  const auto twin = cursor.take_digits(2, 3);
-  if (!twin.has_value()) return std::nullopt;
-  return *single + "/" + *twin;
+  const auto dual = cursor.take_digits(2, 3);
+  if (!dual.has_value()) return std::nullopt;
+  return *single + "/" + *dual;
 }
 
 /// Width, aspect ratio and rim: "205/55R16", "315/80 ZR 22.5".
@@ -113,7 +113,7 @@ TireSize parse_tire_size(const std::string& text) {
   return size;
 }
 
-ParsedServiceDescription parse_service_description(const std::string& text) {
+ParsedServiceDescription parse_service_description(const std::string& text, const char* option) {
   TextCursor cursor(text);
   cursor.skip_blanks();
   const auto written = take_load_index(cursor);
@@ -123,17 +123,18 @@ ParsedServiceDescription parse_service_description(const std::string& text) {
   cursor.skip_blanks();
   parsed.load_index = written.has_value() && cursor.at_end() ? std::stoi(*written) : 0;  // of single mounting
   if (!models::find_load_of_index_kg(parsed.load_index).has_value()) {
-    throw InputError({fmt::format("'{}' is no load index", text), "command line", 0, "--load-index", text,
+    throw InputError({fmt::format("'{}' is no load index", text), "command line", 0, option, text,
                       fmt::format("a number from {} to {}, as on the sidewall behind the size",
                                   models::kLowestLoadIndex, models::kHighestLoadIndex),
                       ""});
   }
-  require_speed_symbol(parsed.speed_symbol, "--load-index", text);
+  require_speed_symbol(parsed.speed_symbol, option, text);
   const std::size_t slash = written->find('/');
-  const int dual = slash == std::string::npos ? 0 : std::stoi(written->substr(slash + 1));
-  if (dual > parsed.load_index) {
-    throw InputError({fmt::format("the load index of dual mounting, {}, is above that of single mounting", dual),
-                      "command line", 0, "--load-index", text, "that of single mounting first, as in 156/150", ""});
+  if (slash != std::string::npos) parsed.dual_index = std::stoi(written->substr(slash + 1));
+  if (parsed.dual_index > parsed.load_index) {
+    throw InputError(
+        {fmt::format("the load index of dual mounting, {}, is above that of single mounting", parsed.dual_index),
+         "command line", 0, option, text, "that of single mounting first, as in 156/150", ""});
   }
   return parsed;
 }
@@ -153,9 +154,19 @@ double find_load_capacity_N(const std::string& load_index) {
          kStandardGravity_m_s2;
 }
 
-std::string find_tire_class(const TireSize& size, int load_index) {
-  if (load_index > models::kHighestLightIndex) return "C3";
+std::string find_tire_class(const TireSize& size, const ParsedServiceDescription& description) {
+  const double slowest_C2_km_h = models::find_symbol_speed_km_h("N").value();  // UN R117, 2.4
+  const auto speed_km_h = models::find_symbol_speed_km_h(description.speed_symbol);
+  const bool is_slow = speed_km_h.has_value() && *speed_km_h < slowest_C2_km_h;
+  if (description.load_index > models::kHighestLightIndex || (size.is_commercial && is_slow)) return "C3";
   return size.is_commercial ? "C2" : "C1";
+}
+
+std::optional<std::string> doubt_class_by_size(const std::string& tire_class, bool is_commercial,
+                                               const ParsedServiceDescription& description) {
+  if (tire_class != "C1" || (!is_commercial && description.dual_index == 0)) return std::nullopt;
+  return fmt::format("{} is that of vans and trucks: is the class C2 or C3, and not C1?",
+                     is_commercial ? "the size" : "a load index of dual mounting");
 }
 
 }  // namespace rollrig::scenarios

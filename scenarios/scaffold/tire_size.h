@@ -30,7 +30,8 @@ double find_load_capacity_N(const std::string& load_index);
 
 /// The service description behind the size on a sidewall.
 struct ParsedServiceDescription {
-  int load_index = 0;        // of two, that of single mounting
+  int load_index = 0;        // of single mounting
+  int dual_index = 0;        // of dual mounting; 0 if there is none
   std::string speed_symbol;  // empty if there is none
 };
 
@@ -38,7 +39,7 @@ struct ParsedServiceDescription {
 /// Errors   InputError: no load index, a letter behind it that is no speed symbol, or an index of dual mounting that is
 ///          above that of single mounting
 /// Checked  tests/scenarios/scaffold_test.cpp, tests/api/label_test.cpp
-ParsedServiceDescription parse_service_description(const std::string& text);
+ParsedServiceDescription parse_service_description(const std::string& text, const char* option = "--load-index");
 
 /// The speed symbol that is given with --speed-symbol, else that of the service description.
 /// Errors   InputError: both are there and differ, or the given one is no speed symbol
@@ -46,6 +47,10 @@ std::string choose_speed_symbol(const std::string& given, const ParsedServiceDes
 
 /// Class of UN Regulation No. 117, paragraph 2.4: "C1", "C2" or "C3". Assumed: a size without the mark C or LT is of C1
 /// up to index 121; the regulation also asks for the speed symbol.
-std::string find_tire_class(const TireSize& size, int load_index);
+std::string find_tire_class(const TireSize& size, const ParsedServiceDescription& description);
+
+/// A doubt about class C1 where the size or the load index is that of a van or a truck.
+std::optional<std::string> doubt_class_by_size(const std::string& tire_class, bool is_commercial,
+                                               const ParsedServiceDescription& description);
 
 }  // namespace rollrig::scenarios

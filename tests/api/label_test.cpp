@@ -124,6 +124,9 @@ TEST_CASE("a speed symbol may stand behind the load index, as on the sidewall", 
   input.speed_symbol = "L";
   CHECK(find_refused_label(input) == "--speed-symbol");
   input = make_label_input(8.4, "C1");
+  input.load_index = "109/107T";
+  REQUIRE(make_label(input).warnings.size() == 1);
+  CHECK(make_label(input).warnings[0].find("is the class C2 or C3") != std::string::npos);
   input.load_index = "91O";
   CHECK(find_refused_label(input) == "--load-index");
 }

@@ -73,7 +73,18 @@ TEST_CASE("a service description is read from size or load index, and its parts 
   CHECK(scenarios::parse_service_description("156/150 L").load_index == 156);
   CHECK(scenarios::parse_service_description("156/150 L").speed_symbol == "L");
   CHECK_THROWS_AS(scenarios::parse_service_description("91O"), InputError);
+  CHECK(scenarios::parse_service_description("156/150").dual_index == 150);
   CHECK_THROWS_AS(scenarios::parse_service_description("107/109T"), InputError);  // dual above single mounting
+  const scenarios::TireSize van = scenarios::parse_tire_size("225/75R16C");
+  CHECK(scenarios::find_tire_class(van, {121, 120, "R"}) == "C2");
+  CHECK(scenarios::find_tire_class(van, {121, 120, "M"}) == "C3");  // UN R117, 2.4
+  CHECK(scenarios::find_tire_class(van, {121, 120, ""}) == "C2");
+  CHECK(scenarios::doubt_class_by_size("C1", true, {91, 0, "V"}).has_value());
+  CHECK_FALSE(scenarios::doubt_class_by_size("C1", false, {91, 0, "V"}).has_value());
+  NewTireOptions reversed;
+  reversed.size = "215/65R16C 107/109T";
+  reversed.rrc_N_per_kN = 8.4;
+  CHECK_THROWS_WITH(scenarios::make_class_tire(reversed), Catch::Contains("--size"));
   CHECK_THROWS_AS(scenarios::parse_tire_size("205/55R16 91O"), InputError);
   NewTireOptions options;
   options.size = "205/55R16 91V";
@@ -85,7 +96,7 @@ TEST_CASE("a service description is read from size or load index, and its parts 
   options.load_index = "91V";
   const ClassTire made = scenarios::make_class_tire(options);
   CHECK(made.notes.at("service_description.speed_symbol") == "Given");
-  CHECK(made.notes.at("service_description.class") == "Assumed: by size and load index");
+  CHECK(made.notes.at("service_description.class") == "Assumed by size and load index");
   for (const char* other : {"91H", "94", "94V"}) {
     options.load_index = other;
     CHECK_THROWS_AS(scenarios::make_class_tire(options), InputError);
