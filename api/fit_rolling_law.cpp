@@ -28,9 +28,10 @@ void put_option(const std::optional<double>& given, const char* option, const ch
   constexpr double kSame = 0.005;  // Assumed: rounding
   if (!given.has_value()) return;
   if (value.has_value() && std::abs(*given / *value - 1.0) > kSame) {
-    warnings.push_back(fmt::format("{} is {:g} {}, but the result has {:g} {}: the standard reference condition is "
-                                   "that of the option",
-                                   option, per_SI * *given, unit, per_SI * *value, unit));
+    warnings.push_back(
+        fmt::format("{} is {:g} {}, but the result has {:g} {}: the standard reference condition is "
+                    "that of the option",
+                    option, per_SI * *given, unit, per_SI * *value, unit));
   }
   value = given;
 }
@@ -67,8 +68,7 @@ RollingTest read_points(const std::string& path, const RollingLawOptions& option
   put_option(options.base_pressure_Pa, "--base-pressure", "kPa", 1e-3, test.base_pressure_Pa, test.warnings);
   if (options.warm_pressure) warn_of_warm_pressure(path, test);
   if (test.is_simulated) return test;  // the program set loads and pressures itself
-  for (std::string& doubt :
-       estimation::doubt_tire_limits(test.points, test.maximum_load_N, test.base_pressure_Pa)) {
+  for (std::string& doubt : estimation::doubt_tire_limits(test.points, test.maximum_load_N, test.base_pressure_Pa)) {
     test.warnings.push_back(std::move(doubt));
   }
   return test;
@@ -166,7 +166,11 @@ RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options, 
   const ReadRecorder recorder;
   RollingTest test = read_points(path, options);
   estimation::J2452Fit fit = fit_points(test, &estimation::fit_j2452);
-  if (const auto doubt = estimation::doubt_parasitic_loss(fit)) fit.warnings.push_back(*doubt);
+  // Of a simulated test, loads and pressures are known. A wrong one looks like a parasitic loss, too.
+  const auto sets = test.is_simulated ? std::nullopt : estimation::doubt_sets(fit.points);
+  if (const auto doubt = sets.has_value() ? sets : estimation::doubt_parasitic_loss(fit)) {
+    fit.warnings.push_back(*doubt);
+  }
   std::optional<estimation::J2452Reference> reference;
   if (const auto at = find_reference(test)) {
     warn_of_reference(*at, true, test);

@@ -219,9 +219,7 @@ void warn_of_j2452(const Eigen::MatrixXd& jacobian, J2452Fit& fit) {
         "standard deviations hold that, but the law is not exact over this range",
         lack->F, lack->p));
   }
-  auto doubt = doubt_largest_residual(fit.points, fit.statistics, jacobian);
-  if (!doubt.has_value()) doubt = doubt_sets(fit.points);
-  if (doubt.has_value()) fit.warnings.push_back(*doubt);
+  if (const auto doubt = doubt_largest_residual(fit.points, fit.statistics, jacobian)) fit.warnings.push_back(*doubt);
 }
 
 /// A force that depends on speed alone, beside the law.

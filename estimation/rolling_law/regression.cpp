@@ -253,7 +253,7 @@ struct PointSet {
 };
 
 std::vector<PointSet> sort_into_sets(const std::vector<FittedPoint>& points) {
-  constexpr double kSame = 0.02;
+  constexpr double kSame = 0.02;  // Assumed
   const auto is_near = [](double a, double b) { return std::abs(a - b) <= kSame * b; };
   std::vector<PointSet> sets;
   for (const FittedPoint& at : points) {

@@ -225,11 +225,11 @@ std::vector<std::string> doubt_points(const std::vector<RollingPoint>& points) {
                     "force in lbf and not in N?",
                     1e3 * coefficient));
   }
-  constexpr double kWorst = 15e-3;  // Assumed: stage 1 of UN R117 permitted 12 N/kN (docs/label.md)
+  constexpr double kWorst = 15e-3;  // Assumed: a quarter above the 12 N/kN of stage 1 of UN R117 (docs/label.md)
   if (coefficient > kWorst) {
     doubts.push_back(fmt::format(
         "rolling resistance over load is {:.3g} N/kN (median), more than that of warm tires, 4 to 15: is the "
-        "force that of two tires, or the load in kgf or lbf and not in N?",
+        "force that of two tires, or the load in lbf and not in N?",
         1e3 * coefficient));
   }
   if (const auto doubt = doubt_area(points)) doubts.push_back(*doubt);
