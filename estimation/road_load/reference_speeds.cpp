@@ -81,8 +81,9 @@ class PairTable {
   }
   const std::string& session_of(const ReferencePair& pair) const { return runs_[pair.plus].session; }
 
-  /// Whether the pairs, but those with too much wind, differ from session to session more than within them: analysis of
-  /// variance of their mean relative deviations, p < 0.01. A session without a pair that counts is left out.
+  /// Whether the pairs differ from session to session more than within them: analysis of variance of their mean
+  /// relative deviations, p < 0.01. Rejected pairs are in it, but for windy ones and those of a session with no other
+  /// pair.
   bool sessions_differ() const {
     constexpr double kUnlikely = 0.01;
     std::map<std::string, std::vector<double>> sessions;
@@ -100,19 +101,24 @@ class PairTable {
                        [&](const ReferencePair& pair) { return pair.rejected.empty() && session_of(pair) == session; });
   }
 
-  /// The pair that is farthest from the mean at a speed where the precision is not met; null if all are met.
-  const ReferencePair* find_farthest(const std::vector<int>& speeds) const {
-    const ReferencePair* farthest = nullptr;
+  /// A pair, and how far its value at a speed is from the mean there.
+  struct Farthest {
+    ReferencePair* pair = nullptr;
     double distance = 0.0;
+    int speed = 0;
+  };
+
+  /// The pair that is farthest from the mean at the speeds where the precision is not met; null if all are met.
+  /// `only_spare`: of those without which three pairs stay at each of their speeds.
+  Farthest find_farthest(const std::vector<int>& speeds, bool only_spare) const {
+    Farthest farthest;
     for (const int speed : speeds) {
       const ReferencePrecision precision = calc_precision(values(speed));
       if (precision.precision <= kPrecisionLimit) continue;
-      for (const ReferencePair* pair : list(speed)) {
-        const double deviation = std::abs(value(*pair, speed) / precision.mean - 1.0);
-        if (deviation > distance) {
-          distance = deviation;
-          farthest = pair;
-        }
+      for (ReferencePair& pair : pairs_) {
+        if (!pair.rejected.empty() || !pair.has(speed) || (only_spare && !is_spare(pair))) continue;
+        const double distance = std::abs(value(pair, speed) / precision.mean - 1.0);
+        if (distance > farthest.distance) farthest = {&pair, distance, speed};
       }
     }
     return farthest;
@@ -124,18 +130,22 @@ class PairTable {
     return sum / static_cast<double>(pairs.size());
   }
 
-  /// By how much the resistance of a run exceeds that of the other runs of the same heading and part whose pairs count:
-  /// as a share, and mean over the speeds of its pair. 0 if there is no such run.
+  /// By how much the resistance of a run exceeds that of the other runs of the same heading and part whose pairs count,
+  /// over the mean of both headings, so that a slope does not count; mean over the speeds of its pair. 0 if there is no
+  /// such run.
   double deviation_of_run(const ReferencePair& pair, std::size_t ReferencePair::*run) const {
     std::vector<double> deviations;
     for (const int speed : pair.speeds) {
       std::vector<double> others;
+      std::vector<const ReferencePair*> other_pairs;
       for (const ReferencePair* other : list(speed, pair.part)) {
         if (other == &pair) continue;
         others.push_back(rule_.resistance(runs_[other->*run].values.at(speed)));
+        other_pairs.push_back(other);
       }
       if (others.empty()) continue;
-      deviations.push_back(rule_.resistance(runs_[pair.*run].values.at(speed)) / calc_mean(others) - 1.0);
+      const double more = rule_.resistance(runs_[pair.*run].values.at(speed)) - calc_mean(others);
+      deviations.push_back(more / mean_resistance(other_pairs, speed));
     }
     return deviations.empty() ? 0.0 : calc_mean(deviations);
   }
@@ -147,24 +157,11 @@ class PairTable {
         std::count_if(pairs_.begin(), pairs_.end(), [](const ReferencePair& pair) { return !pair.rejected.empty(); }));
     std::vector<const ReferencePair*> now;
     for (; rejected < most; ++rejected) {
-      ReferencePair* farthest = nullptr;
-      double distance = 0.0;
-      int at = 0;
-      for (const int speed : speeds) {
-        const ReferencePrecision precision = calc_precision(values(speed));
-        if (precision.precision <= kPrecisionLimit) continue;
-        for (ReferencePair& pair : pairs_) {
-          if (!pair.rejected.empty() || !pair.has(speed) || !is_spare(pair)) continue;
-          const double deviation = std::abs(value(pair, speed) / precision.mean - 1.0);
-          if (deviation <= distance) continue;
-          distance = deviation;
-          farthest = &pair;
-          at = speed;
-        }
-      }
-      if (farthest == nullptr) break;
-      farthest->rejected = fmt::format("{:.1f} % from the mean at {} km/h", 100.0 * distance, at);
-      now.push_back(farthest);
+      const Farthest farthest = find_farthest(speeds, true);
+      if (farthest.pair == nullptr) break;
+      farthest.pair->rejected =
+          fmt::format("{:.1f} % from the mean at {} km/h", 100.0 * farthest.distance, farthest.speed);
+      now.push_back(farthest.pair);
     }
     return now;
   }
@@ -305,16 +302,17 @@ std::vector<ReferencePair> keep_used_speeds(const std::vector<ReferenceRun>& run
   return kept;
 }
 
-/// Text that names the run of a pair that deviates at least three times as much as its partner; empty if
+/// Text that names the run of a pair that deviates by 3 % at least and three times as much as its partner; empty if
 /// neither does.
 std::string describe_deviating_run(const std::vector<ReferenceRun>& runs, const PairTable& table,
                                    const ReferencePair& pair) {
-  constexpr double kClearly = 3.0;  // Assumed
+  constexpr double kClearly = 3.0, kLeast = 0.03;  // Assumed
   const double plus = table.deviation_of_run(pair, &ReferencePair::plus);
   const double minus = table.deviation_of_run(pair, &ReferencePair::minus);
   const bool is_plus = std::abs(plus) > kClearly * std::abs(minus);
   if (!is_plus && !(std::abs(minus) > kClearly * std::abs(plus))) return "";
   const double odd = is_plus ? plus : minus;
+  if (std::abs(odd) < kLeast) return "";
   return fmt::format("; run {} has {:.0f} % {} resistance than the others of its heading",
                      runs[is_plus ? pair.plus : pair.minus].name, 100.0 * std::abs(odd), odd > 0.0 ? "more" : "less");
 }
@@ -400,7 +398,7 @@ ReferenceResult evaluate_reference_runs(const std::vector<ReferenceRun>& runs, c
   PairTable table(runs, rule, result.pairs);
   const std::vector<const ReferencePair*> imprecise = table.reject(result.speeds);
   report_rejected(runs, table, result.pairs, imprecise, result.warnings);
-  if (const ReferencePair* kept = table.find_farthest(result.speeds)) {
+  if (const ReferencePair* kept = table.find_farthest(result.speeds, false).pair) {
     const std::string run = describe_deviating_run(runs, table, *kept);
     if (!run.empty()) {
       result.warnings.push_back(

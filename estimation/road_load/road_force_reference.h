@@ -19,12 +19,13 @@ struct BinForce {
   double force_N = 0.0;    // m dv/dt
 };
 
-/// Of a trace by the means of the cells at both ends of the bin; nothing if the speed does not fall.
+/// Mean force over a bin; of a trace, by the mean speeds and times of the cells at its ends. Nothing if the speed does
+/// not fall.
 std::optional<BinForce> find_bin_force(const FitRun& run, const FitBin& bin, double mass_kg);
 
 /// A road load through mean forces over bins that a few odd runs do not move.
-/// Equation  f = L + h (d_0 + d_1s v), L = k (A + D_s + (B + E_s) v) + q (C + F_s) u|u| + offset(v), Tukey's weights
-///           on the residuals over L (c = 4.685 robust standard deviations), Huber's (c = 1.345) first
+/// Equation  f - offset(v) = L + h (d_0 + d_1s v), L = k (A + D_s + (B + E_s) v) + q (C + F_s) u|u|, Tukey's weights on
+///           the residuals over L (c = 4.685 robust standard deviations), Huber's (c = 1.345) first
 /// Symbols   f m dv/dt of a bin, at its middle speed v; u = v + h w; d_1s, D_s, E_s, F_s one for each session, the
 ///           last three where there are several; others as in fit_road_load()
 /// Method    The terms of a session have a normal prior about 0, each of a standard deviation of 30 % of the force
@@ -39,8 +40,9 @@ class RoadForceReference {
   RoadForceReference(const CoastdownData& data, const std::vector<FitRun>& runs, const std::vector<bool>& used,
                      double mass_kg);
 
-  /// Force of the run less that of the reference, for each bin, over L, or over a fifth of its mean if that is larger:
-  /// on a slope, the same scatter counts alike in both headings. `place` is the place of the run among the runs.
+  /// Force of the run less that of the reference, for each bin, over L, or over a fifth of the mean force if that is
+  /// larger. L has no slope in it, so that the same scatter counts alike uphill and downhill. `place` is the place of the
+  /// run among the runs.
   RunDeviation deviation_of(const FitRun& run, std::size_t place) const;
 
  private:
@@ -48,7 +50,7 @@ class RoadForceReference {
     double speed_m_s = 0.0;
     double force_N = 0.0;
     Eigen::VectorXd factors;
-    Eigen::VectorXd level_factors;  // without what the headings have with opposite signs
+    Eigen::VectorXd level_factors;  // without d_0 and d_1s; a recorded wind stays in u
   };
   std::vector<Point> list_points(const FitRun& run) const;
   Eigen::Index count_factors() const;

@@ -34,7 +34,7 @@ struct PairPrecision {
 /// Line through the relative deviations of a session's runs, each heading with its own mean and its own share of
 /// a change that the headings share with opposite signs (a wind that turns).
 /// Equation  g_r = a_h + b x_r + c h x_r,  x from -1/2 to 1/2 over the session; time change = -b
-/// Symbols   g_r mean of (force - fit)/F over the bins of a run, F road load as tested, without wind and slope;
+/// Symbols   g_r mean of (force - fit)/L over the bins of a run, L road load as tested, without wind and slope;
 ///           h heading +1 or -1
 /// Validity  two runs more than coefficients; least squares, Student's t
 /// Checked   tests/estimation/road_load_checks_test.cpp

@@ -114,16 +114,22 @@ void put_farthest(const std::vector<SessionMean>& means, SessionDifference& diff
   difference.relative = means[1].value - means[0].value;
 }
 
-/// Says so if the air of the session that is farthest was not that of the others; else empty.
-std::string describe_air(const CoastdownData& data, const std::string& farthest) {
-  constexpr double kLeast_K = 2.0;  // Assumed: 2 % of the rolling loss
-  std::vector<double> there_K, others_K;
-  for (const CoastdownRun& run : data.runs) {
-    if (run.conditions.ambient_K.empty()) return "";
-    (run.session == farthest ? there_K : others_K).push_back(calc_mean(run.conditions.ambient_K));
+/// Says so if the air of the session that is farthest was not that of those that it is compared with; else empty.
+std::string describe_air(const CoastdownData& data, const std::map<std::size_t, double>& deviations,
+                         const std::string& farthest) {
+  constexpr double kLeast_K = 2.0;  // Assumed: the rolling resistance changes by about 1 % a kelvin
+  std::map<std::string, std::vector<double>> air_K;
+  for (const auto& [session, headings] : keep_whole(group_by_heading(data, deviations))) air_K[session];
+  for (const auto& [run, deviation] : deviations) {
+    const auto session = air_K.find(data.runs[run].session);
+    if (data.runs[run].conditions.ambient_K.empty()) return "";
+    if (session != air_K.end()) session->second.push_back(calc_mean(data.runs[run].conditions.ambient_K));
   }
-  if (there_K.empty() || others_K.empty()) return "";
-  const double difference_K = calc_mean(there_K) - calc_mean(others_K);
+  std::vector<double> others_K;
+  for (const auto& [session, values_K] : air_K) {
+    if (session != farthest) others_K.push_back(calc_mean(values_K));
+  }
+  const double difference_K = calc_mean(air_K.at(farthest)) - calc_mean(others_K);
   if (std::abs(difference_K) < kLeast_K) return "";
   return fmt::format(". The air in session '{}' was {:.1f} K {}", farthest, std::abs(difference_K),
                      difference_K > 0.0 ? "warmer" : "colder");
@@ -187,11 +193,11 @@ std::optional<std::string> doubt_session_difference(const CoastdownData& data,
   if (!found.has_value() || found->p_value >= kUnlikely || found->relative_sd < kLeastShare) return std::nullopt;
   return fmt::format(
       "the sessions differ by a standard deviation of {:.1f} % of the force, more than their noise explains: the force "
-      "in session '{}' is {:.1f} % {} than {}{}. Where sessions cover different speeds, this bends the curve",
+      "in session '{}' is {:.1f} % {} than {}. Where sessions cover different speeds, the difference bends the curve{}",
       100.0 * found->relative_sd, found->farthest, 100.0 * std::abs(found->relative),
       found->relative > 0.0 ? "higher" : "lower",
       found->other.empty() ? "the mean of the others" : fmt::format("in session '{}'", found->other),
-      describe_air(data, found->farthest));
+      describe_air(data, deviations, found->farthest));
 }
 
 }  // namespace rollrig::estimation

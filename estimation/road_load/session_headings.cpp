@@ -65,7 +65,7 @@ std::string list_sessions_with_slope(const SlopesOfOneSign& sign) {
                      fmt::join(sign.names, "', '"));
 }
 
-/// `fewer` are those that are asked for, unless both are as many.
+/// Asks about the sessions in `fewer`; if both groups are equally large, about either.
 std::string describe_exchanged_headings(const SlopesOfOneSign& more, const SlopesOfOneSign& fewer) {
   const bool is_tie = more.names.size() == fewer.names.size();
   const bool is_one = fewer.names.size() == 1;

@@ -97,7 +97,7 @@ struct UnitDoubt {
 /// they stand. Compares the two groups.
 std::optional<UnitDoubt> test_unit_against(const std::map<std::string, ForceCurve>& sessions,
                                            const ForceCurve& reference, const Conversion& conversion) {
-  constexpr double kApart = 0.1, kClearly = 3.0;
+  constexpr double kApart = 0.1, kClearly = 3.0, kCloseAgreement = 0.02, kSameTop = 0.2;
   ForceCurve others, doubted;
   UnitDoubt doubt;
   for (const auto& [name, curve] : sessions) {
@@ -113,8 +113,11 @@ std::optional<UnitDoubt> test_unit_against(const std::map<std::string, ForceCurv
   if (doubt.sessions.empty() || !doubted.fit() || !others.fit()) return std::nullopt;
   doubt.as_it_stands = calc_difference(doubted, others, {});
   doubt.in_unit = calc_difference(doubted, others, conversion);
+  const double top_ratio = conversion.speed * doubted.high_m_s() / others.high_m_s();
   const bool is_clear =
-      doubt.as_it_stands >= kApart && doubt.in_unit < kAgreement && kClearly * doubt.in_unit < doubt.as_it_stands;
+      std::isfinite(doubt.as_it_stands)
+          ? doubt.as_it_stands >= kApart && doubt.in_unit < kAgreement && kClearly * doubt.in_unit < doubt.as_it_stands
+          : doubt.in_unit < kCloseAgreement && std::abs(top_ratio - 1.0) < kSameTop;
   return is_clear ? std::make_optional(doubt) : std::nullopt;
 }
 

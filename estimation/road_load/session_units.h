@@ -22,9 +22,11 @@ struct ForceSource {
 /// Symbols   F_s, F_o parabolas through the forces of the sessions in doubt and of the others, by relative least
 ///           squares; d = c where the force is found from the speeds (m dv/dt), d = 1 where it is measured
 ///           The parabolas have a force with opposite signs in the headings beside them
-/// Validity  sessions of five points at least. e is infinite if the speeds that both have span less than a factor of
-///           1.5. A session whose e from the others is above 0.1 as it stands and in the other unit is left out
-/// Assumed: doubted if e is above 0.1 as the speeds stand, and below 0.05 and a third of that in the other unit
+/// Validity  sessions of five points at least. A session whose e from the reference session is above 0.1 as it stands
+///           and in the other unit is left out
+/// Assumed: doubted if e is above 0.1 as the speeds stand, and below 0.05 and a third of that in the other unit. Where
+/// the speeds that both have span less than a factor of 1.5, as in the parts of a split test, e as they stand is not
+/// known: then doubted if e is below 0.02 in the other unit, in which the highest speeds agree within 20 %
 /// Checked   tests/estimation/session_units_test.cpp
 std::vector<std::string> doubt_session_units(const CoastdownData& data, const std::vector<RunResistance>& runs,
                                              const ForceSource& source);

@@ -406,7 +406,7 @@ void put_torque_scale(const DynamicRadius& radius, const std::vector<MeanTorque>
 void doubt_torques(const TorqueFile& file, const std::vector<std::string>& windy, RoadLoadProcedure& procedure) {
   doubt_units(procedure);
   doubt_sessions(file.runs, windy, procedure);
-  add_warnings(doubt_session_units(file.runs, list_resistances(file.runs, windy, procedure),
+  add_warnings(doubt_session_units(file.runs, list_resistances(file.runs, {}, procedure),
                                    {/*is_from_speeds=*/false, "reference_km_h and speed_km_h"}),
                procedure);
   doubt_recorded_conditions(file.runs, "wind_m_s", SlopeForce::kIncluded, procedure);

@@ -526,8 +526,7 @@ TraceTerms choose_terms(const CoastdownData& data, const CoastdownData& winds, b
   TraceTerms terms;
   terms.has_B = options.kind == RoadLoadProcedureKind::kJ2263;
   terms.yaw_degree = options.kind == RoadLoadProcedureKind::kJ2263 ? options.yaw_degree : 0;
-  terms.has_slope = std::all_of(data.runs.begin(), data.runs.end(),
-                                [](const CoastdownRun& run) { return run.conditions.slope.empty(); });
+  terms.has_slope = !has_recorded_slopes(data);
   if (terms.yaw_degree == 0) return terms;
   if (on_board && has_yaw(data, on_board)) {
     std::vector<std::string> doubts;  // before those that follow from it

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/core/error.h"
+#include "sim/core/random.h"
 
 using namespace rollrig;
 using namespace rollrig::estimation;
@@ -109,7 +110,21 @@ TEST_CASE("reference speeds: of a rejected pair, the run that was braked is name
   for (auto& [km_h, value] : runs[7].values) value *= 1.3;  // run 8: the - run of the fourth pair
   const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
   REQUIRE(result.warnings.size() == 1);
-  CHECK_THAT(result.warnings.front(), Contains("runs 7 and 8") && Contains("; run 8 has 30 % more resistance"));
+  CHECK_THAT(result.warnings.front(), Contains("runs 7 and 8") && Contains("; run 8 has 28 % more resistance"));
+}
+
+TEST_CASE("reference speeds: on a slope, a run that is braked uphill is named, though little force is left downhill",
+          "[fast]") {
+  std::vector<ReferenceRun> runs = make_reference_runs({0.001, -0.002, 0.002, 0.0, -0.001, 0.0});
+  RandomStream random(4, "scatter of runs");
+  for (ReferenceRun& run : runs) {
+    const double more = run.heading * 95.0 + 2.0 * random.normal();  // of 123 at 20 km/h
+    for (auto& [km_h, value] : run.values) value += more;
+  }
+  for (auto& [km_h, value] : runs[6].values) value += 60.0;
+  const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
+  REQUIRE(!result.warnings.empty());
+  CHECK_THAT(result.warnings.front(), Contains("runs 7 and 8 is rejected") && Contains("; run 7 has"));
 }
 
 TEST_CASE("reference speeds: of three pairs, all of which are needed, the braked run is named", "[fast]") {
@@ -118,7 +133,7 @@ TEST_CASE("reference speeds: of three pairs, all of which are needed, the braked
   const ReferenceResult result = evaluate_reference_runs(runs, kSpeeds_m_s, kTorques, {});
   REQUIRE(result.warnings.size() == 1);
   CHECK_THAT(result.warnings.front(),
-             Contains("runs 3 and 4 is far off, but stays") && Contains("run 3 has 20 % more resistance"));
+             Contains("runs 3 and 4 is far off, but stays") && Contains("run 3 has 21 % more resistance"));
 }
 
 TEST_CASE("reference speeds: a session that is wholly rejected is no part of the intervals", "[fast]") {

@@ -93,6 +93,22 @@ TEST_CASE("a session in mph and one in m/s are each told from those in km/h", "[
   CHECK(has_warning(fit, "if its values of speed_km_h are in m/s"));
 }
 
+TEST_CASE("the parts of a split test are not asked for their unit", "[fast]") {
+  // The lower part in mph would have the speeds of the upper one, and nearly its forces.
+  for (const auto& load : {models::RoadLoad<double>{116.0, 3.0, 0.3}, models::RoadLoad<double>{150.0, 5.0, 0.4},
+                           models::RoadLoad<double>{120.0, 3.0, 0.35}}) {
+    CoastdownStudy upper = tests::make_whole_runs();
+    upper.load = load;
+    CoastdownStudy lower = upper;
+    upper.to_km_h = 65.0;
+    for (const double from_km_h : {70.0, 84.0}) {
+      lower.from_km_h = from_km_h;
+      INFO(load.A_N << " " << from_km_h);
+      CHECK_FALSE(has_warning(fit_checked(join_sessions(upper, lower)), "are they?"));
+    }
+  }
+}
+
 TEST_CASE("a session with another shape of its road load has no odd run, and no other unit", "[fast]") {
   for (const double shape : {0.62, 0.9, 1.4}) {
     CoastdownStudy study;

@@ -28,6 +28,7 @@ struct TorqueStudy {
   double speed_error_km_h = 0.0;
   double slope = 0.0;            // uphill in the + heading
   bool is_pm_exchanged = false;  // two sessions; the headings of the second are written the wrong way round
+  double pm_unit = 1.0;          // two sessions; the speeds of the second are divided by it
   int without_top = 0;           // so many runs, from the first on, do not have the highest reference speed
 };
 
@@ -53,14 +54,16 @@ std::string write_torques(const TorqueStudy& study, bool with_times = true) {
         const double air = v + heading * study.wind_m_s;
         const double torque = scale * (kTorque[0] + kTorque[1] * v + kTorque[2] * air * air) +
                               (kMass_kg + 48.0) * study.drift_m_s2 * kRadius_m;
-        csv.add(static_cast<double>(reference));
-        csv.add(3.6 * v * study.speed_scale + study.speed_error_km_h);
+        const bool is_pm = run >= study.pairs && (study.is_pm_exchanged || study.pm_unit != 1.0);
+        const double unit = is_pm ? study.pm_unit : 1.0;
+        csv.add(static_cast<double>(reference) / unit);
+        csv.add(3.6 * v / unit * study.speed_scale + study.speed_error_km_h);
         csv.add(torque + study.torque_error_Nm +
                 heading * kMass_kg * 9.80665 * study.slope * kRadius_m / 1.02);  // 2 % are lost before the torque meter
         csv.add(v / (2.0 * 3.14159265358979 * kRadius_m) + study.wheel_speed_error_Hz);
         csv.add(std::to_string(run + 1));
         const bool is_exchanged = study.is_pm_exchanged && run >= study.pairs;
-        csv.add(std::string(is_exchanged ? "pm" : "am"));
+        csv.add(std::string(is_pm ? "pm" : "am"));
         csv.add(std::string((heading > 0) != is_exchanged ? "+" : "-"));
         csv.add(20.0);
         csv.add(100.0);
@@ -305,4 +308,17 @@ TEST_CASE("torque meter: exchanged headings of a session are asked for by the sl
   study.is_pm_exchanged = true;
   CHECK_THAT(find_question(evaluate_torques(write_torques(study))),
              Contains("+0.0040 in session 'am'") && Contains("-0.0040 in session 'pm'"));
+}
+
+TEST_CASE("torque meter: a session in mph is asked for its unit", "[fast]") {
+  TorqueStudy study;
+  study.pairs = 8;
+  study.pair_sd = 0.002;
+  study.pm_unit = 1.609344;
+  RoadLoadProcedureOptions options;
+  options.wheel_radius_m = kRadius_m;
+  const RoadLoadProcedure procedure = evaluate_torques(write_torques(study), options);
+  std::string all;
+  for (const std::string& warning : procedure.warnings) all += warning + "\n";
+  CHECK_THAT(all, Contains("session 'pm'") && Contains("if its values of reference_km_h and speed_km_h are in mph"));
 }
