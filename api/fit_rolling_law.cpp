@@ -166,11 +166,9 @@ RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options, 
   const ReadRecorder recorder;
   RollingTest test = read_points(path, options);
   estimation::J2452Fit fit = fit_points(test, &estimation::fit_j2452);
-  // Of a simulated test, loads and pressures are known. A wrong one looks like a parasitic loss, too.
+  if (const auto doubt = estimation::doubt_parasitic_loss(fit)) fit.warnings.push_back(*doubt);
   const auto sets = test.is_simulated ? std::nullopt : estimation::doubt_sets(fit.points);
-  if (const auto doubt = sets.has_value() ? sets : estimation::doubt_parasitic_loss(fit)) {
-    fit.warnings.push_back(*doubt);
-  }
+  if (sets.has_value()) fit.warnings.push_back(*sets);  // of a simulated test, loads and pressures are known
   std::optional<estimation::J2452Reference> reference;
   if (const auto at = find_reference(test)) {
     warn_of_reference(*at, true, test);

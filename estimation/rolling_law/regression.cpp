@@ -277,24 +277,32 @@ std::optional<std::string> doubt_sets(const std::vector<FittedPoint>& points) {
   constexpr double kMisses = 0.03, kUnlikely = 0.001, kExponentsAndLevel = 3.0;
   const std::vector<PointSet> sets = sort_into_sets(points);
   PooledScatter within;
-  double between = 0.0;
+  double between = 0.0, squares = 0.0;
   for (const PointSet& set : sets) {
     within.add_group(set.relative_residuals);
+    squares += std::pow(calc_mean_residual(set), 2);
     between += static_cast<double>(set.relative_residuals.size()) * std::pow(calc_mean_residual(set), 2);
   }
   const double freedom = static_cast<double>(sets.size()) - kExponentsAndLevel;
   if (freedom < 1.0 || within.degrees_of_freedom < 1.0 || !(within.squares > 0.0)) return std::nullopt;
   const boost::math::fisher_f distribution(freedom, within.degrees_of_freedom);
   const double p = boost::math::cdf(boost::math::complement(distribution, between / freedom / within.variance()));
+  if (p >= kUnlikely) return std::nullopt;
   const auto worst = std::max_element(sets.begin(), sets.end(), [](const PointSet& one, const PointSet& other) {
     return std::abs(calc_mean_residual(one)) < std::abs(calc_mean_residual(other));
   });
   const double mean = calc_mean_residual(*worst);
-  if (p >= kUnlikely || std::abs(mean) <= kMisses) return std::nullopt;
-  return fmt::format(
-      "points of one load and pressure lie off the law together, those at {:.0f} N and {:.0f} kPa by {:+.0f} %: are "
-      "loads and pressures of all sets right, and the pressures gauge?",
-      worst->load_N, worst->pressure_Pa / 1e3, 1e2 * mean);
+  std::string text = fmt::format(
+      "points of one load and pressure lie off the law together, by a standard deviation of {:.1f} % (p = {:.2g}): the "
+      "intervals take all points as independent, and are too narrow",
+      1e2 * std::sqrt(squares / freedom), p);
+  if (std::abs(mean) > kMisses) {
+    text += fmt::format(
+        ". Those at {:.0f} N and {:.0f} kPa are off by {:+.0f} %: are loads and pressures of all sets right, and the "
+        "pressures gauge?",
+        worst->load_N, worst->pressure_Pa / 1e3, 1e2 * mean);
+  }
+  return text;
 }
 
 Eigen::MatrixXd invert_normal(const Eigen::MatrixXd& jacobian, std::vector<double>& leverages) {

@@ -58,13 +58,13 @@ std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>
                                                   const RegressionStatistics& statistics,
                                                   const Eigen::MatrixXd& jacobian);
 
-/// A doubt where whole sets of one load and pressure lie off the law by more than the points within sets scatter, as
-/// where the load or the pressure of a set is wrong.
+/// A doubt where whole sets of one load and pressure lie off the law by more than the points within sets scatter: the
+/// intervals are too narrow then. If a set is far off, its load or its pressure may be wrong.
 /// Equation  F = [sum_s n_s m_s^2/(k - 3)] / [sum_s sum_i (r_si - m_s)^2/(n - k)], F distribution with k - 3 and n - k
 ///           degrees of freedom
 /// Symbols   r_si residual over force of point i in set s, m_s their mean, n_s points of the set; k sets, n points
 /// Validity  a law with level and two exponents over the sets; sets are told apart by 2 % of load or pressure
-/// Assumed: doubted if p < 0.001 and the largest |m_s| is above 3 %
+/// Assumed: doubted if p < 0.001; loads and pressures if the largest |m_s| is above 3 %, too
 std::optional<std::string> doubt_sets(const std::vector<FittedPoint>& points);
 
 /// (J^T J)^-1 by a QR decomposition of J with columns of unit length; `leverages` gets the diagonal of the hat matrix.

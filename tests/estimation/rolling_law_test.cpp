@@ -365,16 +365,28 @@ int count_parasitic_doubts(double offset_N, double of_square_N) {
 
 }  // namespace
 
-TEST_CASE("sets whose pressure is absolute lie off the law together", "[fast]") {
+namespace {
+
+/// Seven speeds at seven loads and pressures; sets of one load and pressure scatter together.
+std::vector<RollingPoint> make_scattered_sets(double set_sd, std::uint64_t seed) {
   std::vector<RollingPoint> points;
-  RandomStream random(3, "noise of forces");
+  RandomStream random(seed, "noise of forces");
   for (const auto& [load_N, pressure_kPa] :
        {std::pair(6000.0, 180.0), std::pair(4500.0, 210.0), std::pair(3000.0, 260.0), std::pair(2000.0, 290.0),
         std::pair(3000.0, 180.0), std::pair(4500.0, 290.0), std::pair(6000.0, 260.0)}) {
+    const double factor = 1.0 + set_sd * random.normal();
     for (const double km_h : {115.0, 95.0, 80.0, 65.0, 50.0, 35.0, 15.0}) {
-      points.push_back(make_point(km_h, load_N, pressure_kPa, 0.1 * random.normal()));
+      points.push_back(make_point(km_h, load_N, pressure_kPa));
+      points.back().force_N = factor * points.back().force_N + 0.1 * random.normal();
     }
   }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("sets whose pressure is absolute lie off the law together", "[fast]") {
+  std::vector<RollingPoint> points = make_scattered_sets(0.0, 3);
   CHECK_FALSE(estimation::doubt_sets(estimation::fit_j2452(points).points).has_value());
   for (RollingPoint& point : points) {
     if (point.pressure_Pa < 181e3) point.pressure_Pa += 101.3e3;
@@ -382,6 +394,18 @@ TEST_CASE("sets whose pressure is absolute lie off the law together", "[fast]") 
   const auto doubt = estimation::doubt_sets(estimation::fit_j2452(points).points);
   REQUIRE(doubt.has_value());
   CHECK_THAT(*doubt, Catch::Contains("281 kPa") && Catch::Contains("gauge?"));
+}
+
+TEST_CASE("sets that scatter together are said to make the intervals too narrow, independent points are not",
+          "[fast]") {
+  int scattered = 0, independent = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const auto doubt = estimation::doubt_sets(estimation::fit_j2452(make_scattered_sets(0.01, seed)).points);
+    scattered += doubt.has_value() && doubt->find("too narrow") != std::string::npos ? 1 : 0;
+    independent += estimation::doubt_sets(estimation::fit_j2452(make_scattered_sets(0.0, seed)).points).has_value();
+  }
+  CHECK(scattered >= 30);  // 34: at p < 0.001, some scatters of 1 % stay unseen
+  CHECK(independent <= 1);
 }
 
 TEST_CASE("a parasitic loss that was not subtracted shows beside the law, and tires without one are not doubted",
