@@ -31,9 +31,9 @@ enum class SessionWinds { kInDeviations, kFitted };
 ///           s^2 = sum_sh (g_sh - g_s - g_h + mean g_sh)^2/nu, nu = (k - 1)(H - 1), g_h mean over s of g_sh
 ///           (not where winds are fitted, which take up what the headings of a session differ by);
 ///           relative_sd^2 = sum_s (g_s - mean g_s)^2/(k - 1)
-/// Symbols   g_r mean of (force - fit)/L of run r, L road load without wind and slope, here `deviations`; g_sh mean of the n_sh runs of session s with
-///           heading h; H headings; k sessions that have all headings; c pairs of session and heading and n runs of all
-///           sessions
+/// Symbols   g_r mean of (force - fit)/L of run r, here `deviations`; L road load without wind and slope; g_sh mean of
+///           the n_sh runs of session s with heading h; H headings; k sessions that have all headings; c pairs of session
+///           and heading and n runs of all sessions
 /// Source    analysis of variance of unweighted means
 /// Validity  the second estimate of s^2 also contains the winds of the sessions
 /// Checked   tests/estimation/session_differences_test.cpp

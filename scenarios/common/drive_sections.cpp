@@ -125,8 +125,7 @@ void warn_of_unused_tire(const RunSpec& spec, Outcome& outcome) {
   if (has_tire_loss(spec)) return;
   outcome.warnings.push_back(
       "the vehicle's [road_load] contains the losses of the tires, and stands for them on this rig: the model of the "
-      "tire "
-      "is not used, its energies in the sections are 0, and they are not compared with the ISO coefficient");
+      "tire is not used, its energies in the sections are 0, and they are not compared with the ISO coefficient");
 }
 
 void warn_of_map(const RunSpec& spec, const rigs::VehicleLayout& layout, Outcome& outcome) {
