@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <boost/algorithm/string/join.hpp>
-#include <boost/algorithm/string/split.hpp>
 
 namespace rollrig {
 namespace {
@@ -57,7 +56,7 @@ constexpr std::array<UnitToken, 34> kTokens{{
     {"ms", "ms", dimension::kTime, 1e-3},
 }};
 
-const UnitToken* find_token(const std::string& word) {
+const UnitToken* find_token(std::string_view word) {
   for (const UnitToken& token : kTokens) {
     if (word == token.token) return &token;
   }
@@ -65,13 +64,13 @@ const UnitToken* find_token(const std::string& word) {
 }
 
 /// "m" "s" and their like, written one after the other, mean a quotient: m/s, km/h, rad/s, m/s2.
-bool is_quotient(const std::string& first, const std::string& second) {
+bool is_quotient(std::string_view first, std::string_view second) {
   return (first == "m" && (second == "s" || second == "s2")) || (first == "km" && second == "h") ||
          (first == "rad" && second == "s");
 }
 
 /// "km" "h2" is the square of a speed, as in C_N_per_km_h2.
-bool is_speed_squared(const std::string& first, const std::string& second) { return first == "km" && second == "h2"; }
+bool is_speed_squared(std::string_view first, std::string_view second) { return first == "km" && second == "h2"; }
 
 struct Product {
   std::string symbol;
@@ -79,7 +78,7 @@ struct Product {
   double factor = 1.0;
 };
 
-Product multiply_tokens(const std::vector<std::string>& words) {
+Product multiply_tokens(const std::vector<std::string_view>& words) {
   Product product;
   std::vector<std::string> symbols;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -104,16 +103,20 @@ Product multiply_tokens(const std::vector<std::string>& words) {
   return product;
 }
 
-std::vector<std::string> split_words(std::string_view key) {
-  std::vector<std::string> words;
-  const std::string text(key);
-  boost::algorithm::split(words, text, [](char c) { return c == '_'; });
+/// Words of a key, parts of its text.
+std::vector<std::string_view> split_words(std::string_view key) {
+  std::vector<std::string_view> words;
+  for (std::size_t end = key.find('_'); end != std::string_view::npos; end = key.find('_')) {
+    words.push_back(key.substr(0, end));
+    key.remove_prefix(end + 1);
+  }
+  words.push_back(key);
   return words;
 }
 
 /// Index of the first word of the unit suffix; words.size() when there is none. A unit has one "per" at most, and does
 /// not end with it.
-std::size_t find_suffix_start(const std::vector<std::string>& words) {
+std::size_t find_suffix_start(const std::vector<std::string_view>& words) {
   std::size_t start = words.size();
   for (bool is_below = true; start > 1; --start) {
     const bool is_per = words[start - 1] == "per";
@@ -133,13 +136,13 @@ std::string_view without_sd(std::string_view key) {
 
 Unit unit_of_key(std::string_view key) {
   const std::string_view base = without_sd(key);
-  const std::vector<std::string> words = split_words(base);
+  const std::vector<std::string_view> words = split_words(base);
   std::size_t per = words.size();
   const std::size_t start = find_suffix_start(words);
   for (std::size_t i = start; i < words.size(); ++i) {
     if (words[i] == "per") per = i;
   }
-  using Difference = std::vector<std::string>::difference_type;
+  using Difference = std::vector<std::string_view>::difference_type;
   const auto at = [&words](std::size_t i) { return words.begin() + static_cast<Difference>(i); };
   const Product above = multiply_tokens({at(start), at(per)});
   Unit unit{above.symbol, above.dimension, above.factor, 0.0};
@@ -157,9 +160,11 @@ Unit unit_of_key(std::string_view key) {
 }
 
 std::string name_without_unit(std::string_view key) {
-  std::vector<std::string> words = split_words(without_sd(key));
-  words.resize(find_suffix_start(words));
-  return boost::algorithm::join(words, "_");
+  const std::string_view base = without_sd(key);
+  const std::vector<std::string_view> words = split_words(base);
+  const std::size_t start = find_suffix_start(words);
+  if (start == words.size()) return std::string(base);
+  return std::string(base.substr(0, static_cast<std::size_t>(words[start].data() - base.data()) - 1));
 }
 
 std::string plain_name(std::string_view key) {
