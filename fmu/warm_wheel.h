@@ -57,8 +57,8 @@ struct Snapshot {
 /// through it.
 ///
 /// Equation  rigs/driven_wheel.h; states are those of models/corner.h, and the energy that the tire has lost. advance()
-///           steps as a quasi-static run does: sim/fixed_grid_integrator.h on the grid of rigs/standstill_grid.h. Where
-///           the states change faster than its steps can follow, steps are shorter: at most 2/FastestRate
+///           steps by sim/fixed_grid_integrator.h on the grid of rigs/standstill_grid.h. Where the states change faster
+///           than its steps can follow, steps are shorter: at most 2/FastestRate
 /// Errors    InputError: a value that is not allowed, not a number, or set too late. RunFailure: a state that no tire
 ///           can have. After either, time, states, inputs and parameters are as before the call
 /// Checked   tests/fmu/co_simulation_test.cpp

@@ -30,8 +30,8 @@ class Rows {
 
   /// From `start_s` after a row, for the machine of a kind.
   sim::Segment make_segment(const MachineKind& kind, std::size_t row, double start_s, double duration_s) const {
-    sim::Segment segment{duration_s, std::vector<sim::Ramp>(count_inputs(kind))};
-    std::vector<sim::Ramp>& inputs = segment.inputs;
+    sim::Segment segment{duration_s, sim::Ramps(count_inputs(kind))};
+    sim::Ramps& inputs = segment.inputs;
     const sim::Ramp ambient = line(ambient_K_, row, start_s);
     if (is_on_road(kind.traits)) {
       inputs[index_of(VehicleInput::kSpeed)] = line(speed_m_s_, row, start_s);

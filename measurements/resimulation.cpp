@@ -13,6 +13,7 @@
 #include "rigs/standstill_grid.h"
 #include "rigs/trace_effects.h"
 #include "sim/core/error.h"
+#include "sim/held_steps.h"
 #include "sim/lagged_midpoint_integrator.h"
 #include "sim/simulate.h"
 #include "sim/stabilized_integrator.h"
@@ -137,32 +138,8 @@ sim::Recording<S> run_on(Machine&& machine, const sim::Program& program) {
   return sim::simulate<S>(machine, integrator, program);
 }
 
-constexpr double kStepsBefore = 80.0;  // that the time since a change holds before steps are doubled
-
-/// The longest step so long after the last change of speed or load. Assumed: 10 s, two fifths of the gas's time
-/// constant; from 800 s on a fortieth to an eightieth of that time, since what is left to settle takes as long as it
-/// has taken so far; at most 80 s.
-double find_longest_step_s(double since_change_s) {
-  constexpr double kFirst_s = 10.0;
-  constexpr double kMost_s = 80.0;
-  constexpr double kRounding = 1.0 - 1e-9;
-  double step_s = kFirst_s;
-  while (step_s < kMost_s && since_change_s >= kRounding * kStepsBefore * step_s) step_s *= 2.0;
-  return step_s;
-}
-
-/// Parts of a segment without a change, in each of which steps are equally long.
-void add_held_parts(const sim::Segment& segment, double since_change_s, std::vector<sim::Segment>& parts) {
-  double from_s = 0.0;
-  while (from_s < segment.duration_s) {
-    const double step_s = find_longest_step_s(since_change_s + from_s);
-    const double longer_at_s = kStepsBefore * step_s - since_change_s;
-    const double to_s = longer_at_s > from_s ? std::min(longer_at_s, segment.duration_s) : segment.duration_s;
-    parts.push_back(sim::cut_segment(segment, from_s, to_s));
-    parts.back().max_step_s = step_s;
-    from_s = to_s;
-  }
-}
+/// While speed and load are held. Assumed: from 10 s, two fifths of the gas's time constant, to 80 s.
+constexpr sim::StepGrowth kHeldSteps{10.0, 80.0};
 
 /// Steps for the integrator. Assumed: while the speed changes, at most 10 s and the time in which it changes by 0.75
 /// m/s, less than a quarter of the 12 km/h below which an error of the recorded speed matters most
@@ -173,7 +150,7 @@ void limit_steps(sim::Phase& phase) {
   constexpr double kHeldShare = 1e-9;
   const std::size_t speed = rigs::index_of(DrumInput::kSpeed);
   const std::size_t load = rigs::index_of(DrumInput::kLoad);
-  phase.max_step_s = 80.0;
+  phase.max_step_s = kHeldSteps.most_s;
   std::vector<sim::Segment> parts;
   double since_change_s = 0.0;
   for (const sim::Segment& segment : phase.segments) {
@@ -183,10 +160,10 @@ void limit_steps(sim::Phase& phase) {
     if (slope > kHeld_m_s2 || std::abs(load_N - before_N) > kHeldShare * load_N) since_change_s = 0.0;
     if (slope > kHeld_m_s2) {
       parts.push_back(segment);
-      parts.back().max_step_s = std::min(find_longest_step_s(0.0), kMostChange_m_s / slope);
+      parts.back().max_step_s = std::min(kHeldSteps.first_s, kMostChange_m_s / slope);
       continue;
     }
-    add_held_parts(segment, since_change_s, parts);
+    sim::append_held_parts(segment, since_change_s, kHeldSteps, parts);
     since_change_s += segment.duration_s;
   }
   phase.segments = std::move(parts);

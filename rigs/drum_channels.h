@@ -52,7 +52,7 @@ std::vector<sim::Channel> make_drum_channels(const models::MachineTraits& machin
 template <class S>
 void read_drum_inputs(const PresentProgram& present, double time_s, models::InputPort<S>& inputs) {
   const double elapsed_s = present.elapsed_s(time_s);
-  const std::vector<sim::Ramp>& given = present.segment.inputs;
+  const sim::Ramps& given = present.segment.inputs;
   const auto value = [&](DrumInput input) { return S(given[index_of(input)].at(elapsed_s)); };
   inputs.speed_m_s = value(DrumInput::kSpeed);
   inputs.acceleration_m_s2 = S(given[index_of(DrumInput::kSpeed)].slope_per_s);

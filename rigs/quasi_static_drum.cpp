@@ -20,23 +20,33 @@ void QuasiStaticDrum<S>::initialize(const sim::Segment& first, double time_s, S*
 
 template <class S>
 void QuasiStaticDrum<S>::begin_segment(const sim::Segment& segment, double time_s, S* state, S* integrals) {
-  const bool is_audited = detail_ == Detail::kFull;
-  if (is_audited) find_motion(time_s, state);
-  const S before_J = is_audited ? S(calc_kinetic_J() + calc_spring_J()) : zero<S>();
+  if (detail_ == Detail::kMeasured) {
+    present_.take(segment, time_s);
+    if (present_.drive_on) state[kSpeedState] = apply_inputs_at(time_s, state).acting.speed_m_s;
+    return;
+  }
+  find_motion(time_s, state);
+  const S before_J = calc_kinetic_J() + calc_spring_J();
   present_.take(segment, time_s);
   find_motion(time_s, state);
   if (present_.drive_on) state[kSpeedState] = now().acting.speed_m_s;
-  if (is_audited) integrals[index_of(DrumIntegral::kKnotWork)] += calc_kinetic_J() + calc_spring_J() - before_J;
+  integrals[index_of(DrumIntegral::kKnotWork)] += calc_kinetic_J() + calc_spring_J() - before_J;
+}
+
+template <class S>
+models::Instant<S>& QuasiStaticDrum<S>::apply_inputs_at(double time_s, const S* state) {
+  typename Base::Wheel& wheel = wheels_.front();
+  read_drum_inputs(present_, time_s, wheel.now.recorded);
+  this->apply_inputs(wheel, state);
+  return wheel.now;
 }
 
 /// Fills the wheel up to the losses, its motion and the torque.
 template <class S>
 void QuasiStaticDrum<S>::find_motion(double time_s, const S* state) {
+  models::Instant<S>& now = apply_inputs_at(time_s, state);
   typename Base::Wheel& wheel = wheels_.front();
-  models::Instant<S>& now = wheel.now;
   models::Motion<S>& motion = now.motion;
-  read_drum_inputs(present_, time_s, now.recorded);
-  this->apply_inputs(wheel, state);
   this->find_losses(wheel, present_.drive_on ? now.acting.speed_m_s : state[kSpeedState], state);
   const S resistance_N = now.rolling_resistance_N + now.parasitic_N;
   const S effective_mass_kg = calc_effective_mass_kg();
@@ -97,9 +107,9 @@ S QuasiStaticDrum<S>::find_recorded_speed_m_s(double time_s, const S* state) {
 template <class S>
 void QuasiStaticDrum<S>::observe(double time_s, const S* state, S* values) {
   if (detail_ == Detail::kMeasured) return;
-  const S recorded_m_s = find_recorded_speed_m_s(time_s, state);
-  const models::InputPort<S>& recorded = now().recorded;
-  *values++ = present_.drive_on ? recorded.speed_m_s : recorded_m_s;
+  models::InputPort<S> recorded;
+  read_drum_inputs(present_, time_s, recorded);
+  *values++ = present_.drive_on ? recorded.speed_m_s : find_recorded_speed_m_s(time_s, state);
   *values++ = recorded.load_N;
   *values++ = recorded.ambient_K;
   if (present_.surface_recorded) *values++ = recorded.surface_K;

@@ -34,6 +34,7 @@ class QuasiStaticDrum : public QuasiStaticRig<S> {
   using Base::wheels_;
   static constexpr std::size_t kSpeedState = 0;
 
+  models::Instant<S>& apply_inputs_at(double time_s, const S* state);
   void find_motion(double time_s, const S* state);
   void fill_integrands(S* integrands) const;
   S calc_effective_mass_kg() const;

@@ -187,14 +187,14 @@ S QuasiStaticVehicle<S>::find_recorded_speed_m_s(double time_s, const S* state) 
 
 template <class S>
 void QuasiStaticVehicle<S>::observe(double time_s, const S* state, S* values) {
-  const S recorded_m_s = find_recorded_speed_m_s(time_s, state);
-  const models::InputPort<S>& recorded = wheels_.front().now.recorded;
-  *values++ = present_.drive_on ? recorded.speed_m_s : recorded_m_s;
+  models::InputPort<S> recorded;
+  read_vehicle_inputs(present_, time_s, recorded);
+  *values++ = present_.drive_on ? recorded.speed_m_s : find_recorded_speed_m_s(time_s, state);
   *values++ = recorded.ambient_K;
   if (present_.surface_recorded) *values++ = recorded.surface_K;
-  for (const Wheel& wheel : wheels_) {
-    *values++ = wheel.now.recorded.load_N;
-    values = this->put_further_states(wheel, state, values);
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    *values++ = S(layout_.wheels[i].static_load_N);
+    values = this->put_further_states(wheels_[i], state, values);
   }
 }
 

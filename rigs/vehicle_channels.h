@@ -102,7 +102,7 @@ std::optional<Quantity> find_at_wheel(const Quantity& recorded, const VehicleLay
 template <class S>
 void read_vehicle_inputs(const PresentProgram& present, double time_s, models::InputPort<S>& inputs) {
   const double elapsed_s = present.elapsed_s(time_s);
-  const std::vector<sim::Ramp>& given = present.segment.inputs;
+  const sim::Ramps& given = present.segment.inputs;
   const auto value = [&](VehicleInput input) { return given[index_of(input)].at(elapsed_s); };
   inputs.speed_m_s = S(value(VehicleInput::kSpeed));
   inputs.acceleration_m_s2 = S(given[index_of(VehicleInput::kSpeed)].slope_per_s);

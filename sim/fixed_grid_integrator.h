@@ -65,8 +65,13 @@ class FixedGridIntegrator : public Integrator<S> {
   /// At the start of a segment, from y_ at time_s_.
   virtual void begin() { evaluate(time_s_, y_, rate_); }
 
-  /// One step from y_before_ at before_s_, whose rate is rate_before_.
+  /// One step from y_before_ at before_s_, whose rate is rate_before_, and the rate at its end.
   virtual void advance_to(double target_s) {
+    step_classically(target_s);
+    evaluate(target_s, y_, rate_);
+  }
+
+  void step_classically(double target_s) {
     const double h_s = target_s - before_s_;
     const double middle_s = before_s_ + 0.5 * h_s;
     add_scaled(0.5 * h_s, rate_before_);
@@ -78,7 +83,6 @@ class FixedGridIntegrator : public Integrator<S> {
     for (std::size_t i = 0; i < total_; ++i) {
       y_[i] = y_before_[i] + (h_s / 6.0) * (rate_before_[i] + 2.0 * (k2_[i] + k3_[i]) + k4_[i]);
     }
-    evaluate(target_s, y_, rate_);
     time_s_ = target_s;
   }
 
@@ -96,6 +100,8 @@ class FixedGridIntegrator : public Integrator<S> {
   void add_scaled(double h_s, const Vector& rate) {
     for (std::size_t i = 0; i < n_; ++i) stage_[i] = y_before_[i] + h_s * rate[i];
   }
+  /// Whether the segment may end early.
+  bool is_watched() const { return stop_ != nullptr; }
 
   OdeSystem<S>& system_;
   std::size_t n_;

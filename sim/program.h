@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <boost/container/small_vector.hpp>
+
 namespace rollrig::sim {
 
 /// A straight line from the start of a segment.
@@ -16,12 +18,15 @@ struct Ramp {
   double at(double elapsed_s) const { return start + slope_per_s * elapsed_s; }
 };
 
+/// The inputs of a system. A program of a drive cycle has thousands of them: they are kept in the segment itself.
+using Ramps = boost::container::small_vector<Ramp, 8>;
+
 /// A stretch in which every input is one straight line. Two segments meet at a knot. A system is told which segment it
 /// is in; it never finds out from the time, so that a knot belongs to one side for sure.
 struct Segment {
   double duration_s = 0.0;
-  std::vector<Ramp> inputs;  // in the order that the system declares
-  double max_step_s = 0.0;   // of the fixed grid, where shorter than the phase's; 0 for none
+  Ramps inputs;             // in the order that the system declares
+  double max_step_s = 0.0;  // of the fixed grid, where shorter than the phase's; 0 for none
 };
 
 /// The part of a segment from one time after its start to another.

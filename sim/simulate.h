@@ -63,6 +63,7 @@ class Sampler {
 
   /// Fills the rows that the last step of the integrator has reached; `segment_end_s` bounds row times.
   void follow(Integrator<S>& integrator, double segment_end_s) {
+    if (!row_open_) pass_unwritten(std::min(integrator.time_s(), segment_end_s));
     while (true) {
       const double row_s = time_of(next_);
       if (!row_open_) {
@@ -118,6 +119,14 @@ class Sampler {
     return bounds_s.empty() ? 0.5 * (time_of(k) + time_of(k + 1)) : bounds_s[static_cast<std::size_t>(k + 1)];
   }
   bool is_written(long k) const { return (k - first_of_phase_) % stride_ == 0; }
+
+  /// Passes over rows that are not written and of whose ends no mean needs the integrals.
+  void pass_unwritten(double until_s) {
+    if (stride_ < 3 || !program_.sample_times_s.empty()) return;
+    const long written = next_ + (stride_ - (next_ - first_of_phase_) % stride_) % stride_;
+    const auto reached = static_cast<long>((std::min(until_s, skip_until_s_) - start_s_) / interval_s_);
+    next_ = std::max(next_, std::min(written, reached) - 2);
+  }
 
   void open_row(Integrator<S>& integrator, double row_s) {
     row_open_ = true;

@@ -13,7 +13,7 @@ constexpr double kSteady_min = 180.0;  // leaves less than 0.01 % of the loss of
 constexpr double kSteadyTruck_min = 480.0;
 
 sim::Phase make_phase(const Step& step, double load_N) {
-  sim::Segment segment{step.duration_s, std::vector<sim::Ramp>(rigs::kDrumInputCount)};
+  sim::Segment segment{step.duration_s, sim::Ramps(rigs::kDrumInputCount)};
   segment.inputs[rigs::index_of(rigs::DrumInput::kSpeed)] = {step.speed_m_s, 0.0};
   segment.inputs[rigs::index_of(rigs::DrumInput::kLoad)] = {load_N, 0.0};
   segment.inputs[rigs::index_of(rigs::DrumInput::kAmbient)] = {step.ambient_K, 0.0};

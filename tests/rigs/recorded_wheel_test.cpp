@@ -43,7 +43,7 @@ sim::Program make_roller_program(const std::vector<Stretch>& stretches) {
   for (const Stretch& stretch : stretches) {
     const double slope = (stretch.end_m_s - stretch.start_m_s) / stretch.duration_s;
     for (double t = 0.0; t < stretch.duration_s; t += kSegment_s) {
-      sim::Segment segment{kSegment_s, std::vector<sim::Ramp>(rigs::kRollerInputCount)};
+      sim::Segment segment{kSegment_s, sim::Ramps(rigs::kRollerInputCount)};
       segment.inputs[rigs::index_of(rigs::DrumInput::kSpeed)] = {stretch.start_m_s + slope * t, slope};
       segment.inputs[rigs::index_of(rigs::DrumInput::kLoad)] = {stretch.load_N, 0.0};
       segment.inputs[rigs::index_of(rigs::DrumInput::kAmbient)] = {293.15, 0.0};

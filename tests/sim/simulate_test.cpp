@@ -56,6 +56,34 @@ TEST_CASE("rows hold instants and centered means, also across a knot and at both
   check_kinked<sim::CvodesIntegrator>();
 }
 
+TEST_CASE("the rows of a stride are those of a run without one, however long the steps", "[fast]") {
+  const auto run = [](int stride, double step_s) {
+    LambdaSystem system({1.0}, [](double, const double* y, double* r) { r[0] = -y[0] / 300.0; });
+    sim::FixedGridIntegrator<double> integrator(system);
+    sim::Program program;
+    program.sample_interval_s = 1.0;
+    program.phases = {tests::plain_phase(200.5, step_s), tests::plain_phase(90.0, step_s)};
+    program.phases[0].segments.push_back(program.phases[0].segments[0]);
+    program.phases[0].row_stride = stride;
+    return sim::simulate<double>(system, integrator, program);
+  };
+  const int stride = GENERATE(2, 3, 7, 60, 401, 1000);
+  const double step_s = GENERATE(0.7, 5.0, 40.0);
+  INFO("stride " << stride << ", steps of " << step_s << " s");
+  const sim::Recording<double> all = run(1, step_s), some = run(stride, step_s);
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < all.time_s.size(); ++i) {
+    if (all.phase[i] == 0 && i % static_cast<std::size_t>(stride) != 0) continue;
+    REQUIRE(row < some.time_s.size());
+    CHECK(some.time_s[row] == all.time_s[i]);
+    CHECK(some.phase[row] == all.phase[i]);
+    CHECK(some.channel("y0")[row] == all.channel("y0")[i]);
+    CHECK(some.channel("mean_y0")[row] == Approx(all.channel("mean_y0")[i]).epsilon(1e-12));
+    ++row;
+  }
+  CHECK(row == some.time_s.size());
+}
+
 TEST_CASE("a stride writes every so many rows, with means over the base interval", "[fast]") {
   LambdaSystem system = ramp();
   sim::FixedGridIntegrator<double> integrator(system);

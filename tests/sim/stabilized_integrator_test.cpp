@@ -54,13 +54,79 @@ TEST_CASE("halving long steps divides the error by four, in the state and in its
   CHECK(error(20.0) < error(80.0) / 10.0);
 }
 
-TEST_CASE("steps of up to 10 s are those of the classical rule to the bit", "[fast]") {
-  LambdaSystem system = slowly_driven();
-  sim::FixedGridIntegrator<double> integrator(system);
-  sim::Program program;
-  program.phases = {tests::plain_phase(600.0, 10.0)};
-  CHECK(run_stabilized(slowly_driven(), 10.0, 600.0).final_state[0] ==
-        sim::simulate<double>(system, integrator, program).final_state[0]);
+TEST_CASE("halving short steps divides the error by sixteen, in the state and in its integral, knots or none",
+          "[fast]") {
+  // y' = -y + sin t from 2: y = (sin t - cos t)/2 + 5/2 exp(-t), its integral from 0 below.
+  constexpr double kDuration_s = 6.0;
+  const double y = 0.5 * (std::sin(kDuration_s) - std::cos(kDuration_s)) + 2.5 * std::exp(-kDuration_s);
+  const double integral =
+      -0.5 * (std::cos(kDuration_s) + std::sin(kDuration_s)) + 0.5 + 2.5 * (1.0 - std::exp(-kDuration_s));
+  const auto run = [&](double step_s, std::size_t segments) {
+    LambdaSystem system({2.0}, [](double t, const double* now, double* r) { r[0] = -now[0] + std::sin(t); });
+    sim::StabilizedIntegrator<double> integrator(system);
+    sim::Program program;
+    program.phases = {tests::plain_phase(kDuration_s / static_cast<double>(segments), step_s)};
+    program.phases[0].segments.resize(segments, program.phases[0].segments[0]);
+    return sim::simulate<double>(system, integrator, program);
+  };
+  for (const std::size_t segments : {std::size_t{1}, std::size_t{12}}) {
+    const auto coarse = run(0.05, segments), fine = run(0.025, segments);
+    CHECK((coarse.final_state[0] - y) / (fine.final_state[0] - y) == Approx(16.0).margin(1.5));
+    CHECK((coarse.final_integrals[0] - integral) / (fine.final_integrals[0] - integral) == Approx(16.0).margin(1.5));
+  }
+}
+
+TEST_CASE("a short step takes four evaluations", "[fast]") {
+  const auto count = [](double step_s, std::size_t segments) {
+    int evaluations = 0;
+    LambdaSystem system({1.0}, [&](double, const double* y, double* r) {
+      ++evaluations;
+      r[0] = -y[0] / 600.0;
+    });
+    sim::StabilizedIntegrator<double> integrator(system);
+    sim::Program program;
+    program.phases = {tests::plain_phase(1.0, step_s)};
+    program.phases[0].segments.resize(segments, program.phases[0].segments[0]);
+    sim::simulate<double>(system, integrator, program);
+    return evaluations;
+  };
+  CHECK(count(1.0, 20) == 20 * 4);
+  CHECK(count(0.1, 20) == 20 * 10 * 4);
+}
+
+TEST_CASE("inside short steps, the state is of order four and the rate of an integral of order three", "[fast]") {
+  // The rows of a drive cycle: means over half a step to either side of a knot. y and its integral as above.
+  const auto find_error = [](double step_s) {
+    LambdaSystem system({2.0}, [](double t, const double* now, double* r) { r[0] = -now[0] + std::sin(t); });
+    sim::StabilizedIntegrator<double> integrator(system);
+    sim::Program program;
+    program.sample_interval_s = step_s;
+    program.phases = {tests::plain_phase(step_s, step_s)};
+    program.phases[0].segments.resize(static_cast<std::size_t>(std::lround(4.0 / step_s)),
+                                      program.phases[0].segments[0]);
+    const sim::Recording<double> made = sim::simulate<double>(system, integrator, program);
+    const auto integral = [](double t) { return -0.5 * (std::cos(t) + std::sin(t)) - 2.5 * std::exp(-t); };
+    double largest = 0.0;
+    for (std::size_t row = 1; row + 1 < made.time_s.size(); ++row) {
+      const double t = made.time_s[row];
+      const double mean = (integral(t + 0.5 * step_s) - integral(t - 0.5 * step_s)) / step_s;
+      largest = std::max(largest, std::abs(made.channel("mean_y0")[row] - mean));
+    }
+    return largest;
+  };
+  CHECK(find_error(0.1) / find_error(0.05) > 7.0);
+  CHECK(find_error(0.05) < 1e-6);
+}
+
+TEST_CASE("at the ends of steps of up to 10 s, the state is that of the classical rule to the bit", "[fast]") {
+  for (const double step_s : {0.3, 1.0, 2.0, 10.0}) {
+    LambdaSystem system = slowly_driven();
+    sim::FixedGridIntegrator<double> integrator(system);
+    sim::Program program;
+    program.phases = {tests::plain_phase(600.0, step_s)};
+    CHECK(run_stabilized(slowly_driven(), step_s, 600.0).final_state[0] ==
+          sim::simulate<double>(system, integrator, program).final_state[0]);
+  }
 }
 
 TEST_CASE("a state that is forty times faster than the step stays where it belongs", "[fast]") {

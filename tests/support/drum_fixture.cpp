@@ -57,7 +57,7 @@ sim::Recording<double> DrumFixture::run_quasi_static(const sim::Program& program
 
 sim::Segment drum_segment(double duration_s, double speed_start_m_s, double speed_end_m_s, double load_N,
                           double ambient_K) {
-  sim::Segment segment{duration_s, std::vector<sim::Ramp>(rigs::kDrumInputCount)};
+  sim::Segment segment{duration_s, sim::Ramps(rigs::kDrumInputCount)};
   segment.inputs[rigs::index_of(rigs::DrumInput::kSpeed)] = {speed_start_m_s,
                                                              (speed_end_m_s - speed_start_m_s) / duration_s};
   segment.inputs[rigs::index_of(rigs::DrumInput::kLoad)] = {load_N, 0.0};

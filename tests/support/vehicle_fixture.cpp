@@ -72,7 +72,7 @@ sim::Recording<double> VehicleFixture::run_quasi_static(const sim::Program& prog
 sim::Segment vehicle_segment(double duration_s, double speed_start_m_s, double speed_end_m_s, double slope,
                              double wind_m_s) {
   using rigs::VehicleInput;
-  sim::Segment segment{duration_s, std::vector<sim::Ramp>(rigs::kVehicleInputCount)};
+  sim::Segment segment{duration_s, sim::Ramps(rigs::kVehicleInputCount)};
   if (speed_end_m_s != speed_start_m_s) segment.max_step_s = 0.2;  // knees of the brakes' blending
   const auto put = [&segment](VehicleInput input, double start, double slope_per_s = 0.0) {
     segment.inputs[rigs::index_of(input)] = {start, slope_per_s};

@@ -1,0 +1,71 @@
+#include "sim/held_steps.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rollrig::sim {
+
+namespace {
+
+bool is_held(const Segment& segment) {
+  return std::all_of(segment.inputs.begin(), segment.inputs.end(),
+                     [](const Ramp& input) { return input.slope_per_s == 0.0; });
+}
+
+/// Of two held segments that follow each other.
+bool has_same_inputs(const Segment& a, const Segment& b) {
+  return std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(),
+                    [](const Ramp& x, const Ramp& y) { return x.start == y.start; });
+}
+
+void lengthen_held_steps(const StepGrowth& growth, Phase& phase) {
+  std::vector<Segment> parts;
+  parts.reserve(phase.segments.size());
+  double since_change_s = 0.0;
+  for (Segment& segment : phase.segments) {
+    if (!is_held(segment) || segment.max_step_s > 0.0) {
+      since_change_s = 0.0;
+      if (segment.max_step_s <= 0.0) segment.max_step_s = growth.first_s;
+      parts.push_back(std::move(segment));
+      continue;
+    }
+    if (!parts.empty() && !has_same_inputs(parts.back(), segment)) since_change_s = 0.0;
+    append_held_parts(segment, since_change_s, growth, parts);
+    since_change_s += segment.duration_s;
+  }
+  phase.segments = std::move(parts);
+  phase.max_step_s = growth.most_s;
+}
+
+}  // namespace
+
+double StepGrowth::find_longest_s(double since_change_s) const {
+  constexpr double kRounding = 1.0 - 1e-9;
+  double step_s = first_s;
+  while (step_s < most_s && since_change_s >= kRounding * steps_before_doubling * step_s) step_s *= 2.0;
+  return std::min(step_s, most_s);
+}
+
+void append_held_parts(const Segment& segment, double since_change_s, const StepGrowth& growth,
+                       std::vector<Segment>& parts) {
+  double from_s = 0.0;
+  while (from_s < segment.duration_s) {
+    const double step_s = growth.find_longest_s(since_change_s + from_s);
+    const double longer_at_s = growth.steps_before_doubling * step_s - since_change_s;
+    const bool grows = step_s < growth.most_s && longer_at_s > from_s && longer_at_s < segment.duration_s;
+    const double to_s = grows ? longer_at_s : segment.duration_s;
+    parts.push_back(cut_segment(segment, from_s, to_s));
+    parts.back().max_step_s = step_s;
+    from_s = to_s;
+  }
+}
+
+Program lengthen_held_steps(Program program, double most_s, double steps_before_doubling) {
+  for (Phase& phase : program.phases) {
+    if (phase.until.has_value()) continue;
+    lengthen_held_steps({phase.max_step_s, std::max(phase.max_step_s, most_s), steps_before_doubling}, phase);
+  }
+  return program;
+}
+
+}  // namespace rollrig::sim
