@@ -128,7 +128,7 @@ Block make_speed_chart(const J2452Fit& fit) {
 Block make_load_chart(const J2452Fit& fit) {
   const auto [low_N, high_N] = find_span(fit.points, &RollingPoint::load_N);
   const auto [low_Pa, high_Pa] = find_span(fit.points, &RollingPoint::pressure_Pa);
-  const double reach = estimation::calc_student_reach(fit.statistics.freedom);
+  const double reach = estimation::calc_student_reach(fit.find_freedom());
   Json series = Json::array();
   for (const double pressure_Pa : {low_Pa, 0.5 * (low_Pa + high_Pa), high_Pa}) {
     ChartSeries curve;
@@ -258,7 +258,7 @@ std::vector<Table> make_j2452_tables(const J2452Fit& fit, const std::optional<J2
   std::vector<Table> tables{make_coefficient_rows(fit.coefficients)};
   tables.front().title += ": F = P^alpha Z^beta (a + b v + c v^2), in N, kPa, km/h";
   if (reference.has_value()) {
-    const int freedom = fit.statistics.freedom;
+    const int freedom = fit.find_freedom();
     Table list{"Standard reference condition: " + describe_reference(reference->condition), {}, {}};
     list.rows = {
         {"rolling resistance at 80 km/h", show_force(reference->force, freedom)},
@@ -269,6 +269,13 @@ std::vector<Table> make_j2452_tables(const J2452Fit& fit, const std::optional<J2
     tables.push_back(list);
   }
   tables.push_back(make_statistics_rows(fit.statistics));
+  if (fit.holds_sets) {
+    const estimation::SetScatter& scatter = *fit.set_scatter;
+    tables.back().rows.push_back(
+        {"scatter from set to set",
+         fmt::format("{:.2g} % of the force, {} of freedom (p = {:.2g})", 100.0 * scatter.relative_sd,
+                     format_count(static_cast<std::size_t>(scatter.freedom), "degree"), scatter.chance)});
+  }
   return tables;
 }
 
@@ -282,14 +289,14 @@ Page make_j2452_page(const estimation::RollingTest& test, const J2452Fit& fit,
       make_section("Result", typeset_law(make_j2452_tables(fit, reference)), collect_warnings(test, fit.warnings));
   std::vector<Tile> tiles;
   if (reference.has_value()) {
-    tiles = make_reference_tiles(reference->force, reference->condition, fit.statistics.freedom);
+    tiles = make_reference_tiles(reference->force, reference->condition, fit.find_freedom());
     Tile smerf{"Mean equivalent rolling force",
                fmt::format("{:.2f}", reference->combined.value_N),
                "N",
                "SMERF: 0.55 of the urban and 0.45 of the highway cycle",
                "",
                {"/reference/smerf/value_N"}};
-    if (const int freedom = fit.statistics.freedom; freedom > 0) {
+    if (const int freedom = fit.find_freedom(); freedom > 0) {
       smerf.value += fmt::format(" +- {:.2f}", estimation::calc_student_reach(freedom) * reference->combined.sd_N);
       smerf.from.push_back("/reference/smerf/half_width_95_N");
     }

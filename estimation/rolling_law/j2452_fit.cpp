@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kJ2452Coefficients = 5;
 constexpr std::size_t kLeastJ2452Points = 6;  // one more than coefficients
+constexpr int kTermsOfSets = 3;               // level and two exponents
 constexpr int kOffsetTerms = 2;               // of a force that depends on speed alone: 1, v^2
 
 using Vector5 = Eigen::Matrix<double, kJ2452Coefficients, 1>;
@@ -195,7 +196,7 @@ void put_coefficients(const Vector5& found, J2452Fit& fit) {
   constexpr std::array<const char*, 3> kNames{"a", "b", "c"};
   constexpr std::array<const char*, 3> kUnits{"N kPa^-alpha N^-beta", "N kPa^-alpha N^-beta/(km/h)",
                                               "N kPa^-alpha N^-beta/(km/h)^2"};
-  const int freedom = fit.statistics.freedom;
+  const int freedom = fit.find_freedom();
   fit.coefficients = {make_student_estimate("alpha", found(0), std::sqrt(fit.covariance(0, 0)), freedom, ""),
                       make_student_estimate("beta", found(1), std::sqrt(fit.covariance(1, 1)), freedom, "")};
   for (int power = 0; power < 3; ++power) {
@@ -208,6 +209,24 @@ void put_coefficients(const Vector5& found, J2452Fit& fit) {
         coefficient.find_range(calc_student_reach(freedom));
   }
   fit.law = {found(0), found(1), fit.coefficients[2].value, fit.coefficients[3].value, fit.coefficients[4].value};
+}
+
+/// Covariance of unknowns of points that scatter by themselves, in the scaling of the law.
+Eigen::MatrixXd calc_law_covariance(double point_sd, const Eigen::MatrixXd& inverse) {
+  return point_sd * point_sd * inverse;
+}
+
+/// The same where sets scatter as well.
+Eigen::MatrixXd calc_law_covariance(const J2452Fit& fit, const SetScatter& scatter, const Eigen::MatrixXd& jacobian,
+                                    const Eigen::MatrixXd& inverse) {
+  Eigen::MatrixXd of_sets = Eigen::MatrixXd::Zero(jacobian.cols(), static_cast<Eigen::Index>(scatter.set_count()));
+  for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
+    const auto point = static_cast<std::size_t>(i);
+    of_sets.col(static_cast<Eigen::Index>(scatter.set_of_point[point])) +=
+        fit.points[point].fitted_N / fit.force_0_N * jacobian.row(i).transpose();
+  }
+  const Eigen::MatrixXd moved = scatter.relative_sd * inverse * of_sets;
+  return calc_law_covariance(scatter.point_sd_N / fit.force_0_N, inverse) + moved * moved.transpose();
 }
 
 void warn_of_j2452(const Eigen::MatrixXd& jacobian, J2452Fit& fit) {
@@ -235,21 +254,29 @@ OffsetForce find_offset_force(const J2452Fit& fit, const std::vector<ScaledPoint
   const Eigen::VectorXd found =
       minimize_scaled(points, {fit.law.alpha, fit.law.beta, fit.q(0), fit.q(1), fit.q(2), 0.0, 0.0});
   const auto count = static_cast<Eigen::Index>(points.size());
+  constexpr double kSetsScatter = 0.01;  // Assumed: above that chance, points are taken as independent
   Eigen::MatrixXd jacobian(count, found.size());
+  std::vector<FittedPoint> fitted = fit.points;
   double squares = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const ScaledPoint& point = points[static_cast<std::size_t>(i)];
     jacobian.row(i) = calc_row(found, point).transpose();
-    squares += std::pow(calc_residual(found, point), 2);
+    const double residual = calc_residual(found, point);
+    squares += residual * residual;
+    FittedPoint& at = fitted[static_cast<std::size_t>(i)];
+    at.fitted_N = at.point.force_N + fit.force_0_N * residual;
   }
   std::vector<double> leverages;
   const Eigen::MatrixXd inverse = invert_normal(jacobian, leverages);
-  const double freedom = static_cast<double>(count - found.size());
   const double middle = fit.speed_0_m_s / (fit.speed_0_m_s + fit.half_range_m_s);
   const Eigen::Vector2d at_middle(1.0, middle * middle);
   const double value = found.tail<kOffsetTerms>().dot(at_middle);
-  const Eigen::Matrix2d of_offset = inverse.bottomRightCorner<kOffsetTerms, kOffsetTerms>();
-  const double sd = std::sqrt(squares / freedom * at_middle.dot(of_offset * at_middle));
+  const auto scatter = find_set_scatter(fitted, jacobian, kTermsOfSets + 1);
+  const bool sets_scatter = scatter.has_value() && scatter->chance < kSetsScatter;
+  const double freedom = sets_scatter ? scatter->freedom : static_cast<double>(count - found.size());
+  const Eigen::MatrixXd covariance = sets_scatter ? calc_law_covariance(fit, *scatter, jacobian, inverse)
+                                                  : calc_law_covariance(std::sqrt(squares / freedom), inverse);
+  const double sd = std::sqrt(at_middle.dot(covariance.bottomRightCorner<kOffsetTerms, kOffsetTerms>() * at_middle));
   const double t = sd > 0.0 ? value / sd : 0.0;
   const double chance = boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), t));
   return {fit.force_0_N * value, chance, found(0), found(1)};
@@ -311,10 +338,12 @@ ForceEstimate J2452Fit::estimate_mean(double pressure_Pa, double load_N, const S
 }
 
 double J2452Fit::calc_prediction_sd_N(const ReferenceCondition& at) const {
-  return std::hypot(estimate_force(at).sd_N, statistics.residual_sd_N);
+  const ForceEstimate force = estimate_force(at);
+  if (!holds_sets) return std::hypot(force.sd_N, statistics.residual_sd_N);
+  return std::hypot(force.sd_N, set_scatter->point_sd_N, set_scatter->relative_sd * force.value_N);
 }
 
-J2452Fit fit_j2452(const std::vector<RollingPoint>& points) {
+J2452Fit fit_j2452(const std::vector<RollingPoint>& points, RandomPart random) {
   require_decided(points);
   J2452Fit fit;
   choose_scaling(points, fit);
@@ -331,8 +360,10 @@ J2452Fit fit_j2452(const std::vector<RollingPoint>& points) {
   const Eigen::MatrixXd inverse = invert_normal(jacobian, leverages);
   for (std::size_t i = 0; i < leverages.size(); ++i) fit.points[i].leverage = leverages[i];
   fit.statistics = calc_statistics(fit.points, kJ2452Coefficients);
-  const double scaled_sd = fit.statistics.residual_sd_N / fit.force_0_N;
-  fit.covariance = scaled_sd * scaled_sd * inverse;
+  fit.set_scatter = find_set_scatter(fit.points, jacobian, kTermsOfSets);
+  fit.holds_sets = random == RandomPart::kPointsAndSets && fit.set_scatter.has_value() && fit.set_scatter->counts();
+  fit.covariance = fit.holds_sets ? calc_law_covariance(fit, *fit.set_scatter, jacobian, inverse)
+                                  : calc_law_covariance(fit.statistics.residual_sd_N / fit.force_0_N, inverse);
   put_coefficients(found, fit);
   warn_of_j2452(jacobian, fit);
   return fit;

@@ -17,8 +17,12 @@ struct J2452Fit {
   std::vector<ParameterEstimate> coefficients;  // alpha, beta, a, b, c
   std::vector<FittedPoint> points;
   RegressionStatistics statistics;
+  std::optional<SetScatter> set_scatter;  // where there are sets enough to tell
+  bool holds_sets = false;                // whether the intervals hold it
   std::vector<std::string> warnings;
 
+  /// Degrees of freedom of the intervals: those of the sets where these scatter, else those of the points.
+  int find_freedom() const { return holds_sets ? set_scatter->freedom : statistics.freedom; }
   /// At one condition.
   ForceEstimate estimate_force(const ReferenceCondition& at) const;
   /// The mean over a drive.
@@ -40,22 +44,29 @@ struct J2452Fit {
   ForceEstimate estimate(double pressure_Pa, double load_N, double mean_x, double mean_x2) const;
 };
 
+/// What is random in the points of a test: each of them, or whole sets of one load and pressure as well.
+enum class RandomPart { kPoints, kPointsAndSets };
+
 /// Nonlinear least squares of forces in N, all points with the same weight.
 ///
-/// Standard deviations follow from the residuals, intervals of 95 % from Student's distribution. The intervals of a, b
-/// and c hold the uncertainty of the exponents: a is the force at 1 kPa, 1 N and standstill, far from every point, and
-/// moves with them. Each is a product of two numbers that are nearly normal, and its interval holds the values that it
-/// takes over their 95 % ellipse (likelihood ratio).
+/// Standard deviations follow from the residuals, intervals of 95 % from Student's distribution. Where sets of one load
+/// and pressure may scatter, and do (SetScatter::counts()), the covariance holds that, and the intervals have the
+/// degrees of freedom of the sets.
+/// Equation  (J^T J)^-1 J^T V J (J^T J)^-1;  V = s^2 1, or in a set s^2 1 + t^2 F F^T
+/// Symbols   J Jacobian, F forces of the points of a set [N], s and t of SetScatter
+/// The intervals of a, b and c hold the uncertainty of the exponents: a is the force at 1 kPa, 1 N and standstill, far
+/// from every point, and moves with them. Each is a product of two numbers that are nearly normal, and its interval
+/// holds the values that it takes over their 95 % ellipse (likelihood ratio).
 /// Errors    InputError: fewer than six points, fewer than two pressures or loads, fewer than three speeds; RunFailure:
 ///           no convergence, or pressure and load that vary together
 /// Checked   tests/estimation/rolling_law_test.cpp, rolling_law_coverage_test.cpp
-J2452Fit fit_j2452(const std::vector<RollingPoint>& points);
+J2452Fit fit_j2452(const std::vector<RollingPoint>& points, RandomPart random = RandomPart::kPoints);
 
 /// A doubt where the points show a force that depends on speed alone, as a parasitic loss that was not subtracted does.
 /// An exponent of load that no tire has is doubted by doubt_trends().
 ///
 /// Equation  F = P^alpha Z^beta (a + b v + c v^2) + e + f v^2;  t = F_e/u(F_e), F_e = e + f v^2 at the middle speed;
-///           doubted if P(t(n - 7) > t) < 0.0005
+///           doubted if P(t(n - 7) > t) < 0.0005, or P(t(k - 4) > t) of k sets that scatter beside e + f v^2 as well
 /// Validity  three loads or more. A tire whose law bends over load, since a higher load warms it more, hides the loss:
 ///           such points show F_e below zero where nothing is wrong
 /// Assumed: the level of significance; F_e above a tenth of the smallest force; beta of 0.8 to 1.4 beside it

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "estimation/run_checks/pooled_scatter.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {
@@ -245,64 +243,90 @@ std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>
 
 namespace {
 
-/// Points of one load and pressure.
-struct PointSet {
-  double load_N = 0.0;
-  double pressure_Pa = 0.0;
-  std::vector<double> relative_residuals;
-};
-
-std::vector<PointSet> sort_into_sets(const std::vector<FittedPoint>& points) {
+/// By point, the place of its set.
+std::vector<std::size_t> sort_into_sets(const std::vector<FittedPoint>& points) {
   constexpr double kSame = 0.02;  // Assumed
   const auto is_near = [](double a, double b) { return std::abs(a - b) <= kSame * b; };
-  std::vector<PointSet> sets;
+  std::vector<const RollingPoint*> firsts;
+  std::vector<std::size_t> set_of_point;
   for (const FittedPoint& at : points) {
-    auto set = std::find_if(sets.begin(), sets.end(), [&](const PointSet& other) {
-      return is_near(at.point.load_N, other.load_N) && is_near(at.point.pressure_Pa, other.pressure_Pa);
+    const auto first = std::find_if(firsts.begin(), firsts.end(), [&](const RollingPoint* other) {
+      return is_near(at.point.load_N, other->load_N) && is_near(at.point.pressure_Pa, other->pressure_Pa);
     });
-    if (set == sets.end()) set = sets.insert(set, {at.point.load_N, at.point.pressure_Pa, {}});
-    set->relative_residuals.push_back(at.residual_N() / at.point.force_N);
+    set_of_point.push_back(static_cast<std::size_t>(first - firsts.begin()));
+    if (first == firsts.end()) firsts.push_back(&at.point);
   }
-  return sets;
+  return set_of_point;
 }
 
-double calc_mean_residual(const PointSet& set) {
-  return std::accumulate(set.relative_residuals.begin(), set.relative_residuals.end(), 0.0) /
-         static_cast<double>(set.relative_residuals.size());
+/// Columns u_s of SetScatter.
+Eigen::MatrixXd make_set_columns(const std::vector<FittedPoint>& points, const std::vector<std::size_t>& set_of_point) {
+  const std::size_t sets = 1 + *std::max_element(set_of_point.begin(), set_of_point.end());
+  Eigen::MatrixXd columns =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), static_cast<Eigen::Index>(sets));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    columns(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(set_of_point[i])) = points[i].fitted_N;
+  }
+  return columns;
 }
 
 }  // namespace
 
-std::optional<std::string> doubt_sets(const std::vector<FittedPoint>& points) {
-  constexpr double kMisses = 0.03, kUnlikely = 0.001, kExponentsAndLevel = 3.0;
-  const std::vector<PointSet> sets = sort_into_sets(points);
-  PooledScatter within;
-  double between = 0.0, squares = 0.0;
-  for (const PointSet& set : sets) {
-    within.add_group(set.relative_residuals);
-    squares += std::pow(calc_mean_residual(set), 2);
-    between += static_cast<double>(set.relative_residuals.size()) * std::pow(calc_mean_residual(set), 2);
-  }
-  const double freedom = static_cast<double>(sets.size()) - kExponentsAndLevel;
-  if (freedom < 1.0 || within.degrees_of_freedom < 1.0 || !(within.squares > 0.0)) return std::nullopt;
-  const boost::math::fisher_f distribution(freedom, within.degrees_of_freedom);
-  const double p = boost::math::cdf(boost::math::complement(distribution, between / freedom / within.variance()));
-  if (p >= kUnlikely) return std::nullopt;
-  const auto worst = std::max_element(sets.begin(), sets.end(), [](const PointSet& one, const PointSet& other) {
-    return std::abs(calc_mean_residual(one)) < std::abs(calc_mean_residual(other));
-  });
-  const double mean = calc_mean_residual(*worst);
+bool SetScatter::counts() const {
+  constexpr double kPooledFrom = 0.25;
+  constexpr int kLeastFreedom = 2;
+  return freedom >= kLeastFreedom && chance < kPooledFrom && relative_sd > 0.0;
+}
+
+std::optional<SetScatter> find_set_scatter(const std::vector<FittedPoint>& points, const Eigen::MatrixXd& jacobian,
+                                           int terms_of_sets) {
+  SetScatter found;
+  found.set_of_point = sort_into_sets(points);
+  const Eigen::MatrixXd of_sets = make_set_columns(points, found.set_of_point);
+  const auto sets = static_cast<int>(of_sets.cols());
+  const int terms_within = static_cast<int>(jacobian.cols()) - terms_of_sets;
+  found.freedom = sets - terms_of_sets;
+  found.freedom_within = static_cast<int>(points.size()) - sets - terms_within;
+  if (found.freedom < 1 || found.freedom_within < 1) return std::nullopt;
+  Eigen::VectorXd left_N(jacobian.rows());
+  for (Eigen::Index i = 0; i < left_N.size(); ++i) left_N(i) = points[static_cast<std::size_t>(i)].residual_N();
+  const Eigen::ArrayXd squares_N2 = of_sets.colwise().squaredNorm().transpose();
+  const Eigen::ArrayXd errors = (of_sets.transpose() * left_N).array() / squares_N2;
+  const double within_N2 = (left_N - of_sets * errors.matrix()).squaredNorm() / found.freedom_within;
+  const double between_N2 = (errors.square() * squares_N2).sum();
+  if (!(within_N2 > 0.0)) return std::nullopt;
+  const Eigen::MatrixXd own = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(jacobian).householderQ() *
+                              Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
+  const Eigen::MatrixXd projected = own.transpose() * of_sets;
+  const Eigen::MatrixXd kept_N2 = of_sets.transpose() * of_sets - projected.transpose() * projected;
+  const double of_scatter_N2 = (kept_N2.array().square().rowwise().sum() / squares_N2).sum();
+  const boost::math::fisher_f distribution(found.freedom, found.freedom_within);
+  found.set_errors.assign(errors.data(), errors.data() + errors.size());
+  found.chance = boost::math::cdf(boost::math::complement(distribution, between_N2 / found.freedom / within_N2));
+  found.relative_sd = std::sqrt(std::max(0.0, between_N2 - found.freedom * within_N2) / of_scatter_N2);
+  found.point_sd_N = std::sqrt(within_N2);
+  return found;
+}
+
+std::optional<std::string> doubt_sets(const std::vector<FittedPoint>& points, const SetScatter& scatter) {
+  constexpr double kMisses = 0.03, kUnlikely = 0.001;
+  if (scatter.chance >= kUnlikely) return std::nullopt;
   std::string text = fmt::format(
-      "points of one load and pressure lie off the law together, by a standard deviation of {:.1f} % (p = {:.2g}): the "
-      "intervals take all points as independent, and are too narrow",
-      1e2 * std::sqrt(squares / freedom), p);
-  if (std::abs(mean) > kMisses) {
-    text += fmt::format(
-        ". Those at {:.0f} N and {:.0f} kPa are off by {:+.0f} %: are loads and pressures of all sets right, and the "
-        "pressures gauge?",
-        worst->load_N, worst->pressure_Pa / 1e3, 1e2 * mean);
-  }
-  return text;
+      "points of one load and pressure lie off the law together, by a standard deviation of {:.1f} % (p = {:.2g}): ",
+      1e2 * scatter.relative_sd, scatter.chance);
+  text += scatter.counts()
+              ? "the intervals hold that. More sets would make them narrower, more points of a set hardly"
+              : "the intervals take all points as independent, and are too narrow; they need five sets to hold that";
+  const auto worst = std::max_element(scatter.set_errors.begin(), scatter.set_errors.end(),
+                                      [](double one, double other) { return std::abs(one) < std::abs(other); });
+  if (std::abs(*worst) <= kMisses) return text;
+  const auto set = static_cast<std::size_t>(worst - scatter.set_errors.begin());
+  const auto first = std::find(scatter.set_of_point.begin(), scatter.set_of_point.end(), set);
+  const RollingPoint& point = points[static_cast<std::size_t>(first - scatter.set_of_point.begin())].point;
+  return text + fmt::format(
+                    ". Those at {:.0f} N and {:.0f} kPa are off by {:+.0f} %: are loads and pressures of all sets "
+                    "right, and the pressures gauge?",
+                    point.load_N, point.pressure_Pa / 1e3, 1e2 * *worst);
 }
 
 Eigen::MatrixXd invert_normal(const Eigen::MatrixXd& jacobian, std::vector<double>& leverages) {

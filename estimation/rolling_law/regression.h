@@ -58,14 +58,41 @@ std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>
                                                   const RegressionStatistics& statistics,
                                                   const Eigen::MatrixXd& jacobian);
 
-/// A doubt where whole sets of one load and pressure lie off the law by more than the points within sets scatter: the
-/// intervals are too narrow then. If a set is far off, its load or its pressure may be wrong.
-/// Equation  F = [sum_s n_s m_s^2/(k - 3)] / [sum_s sum_i (r_si - m_s)^2/(n - k)], F distribution with k - 3 and n - k
-///           degrees of freedom
-/// Symbols   r_si residual over force of point i in set s, m_s their mean, n_s points of the set; k sets, n points
-/// Validity  a law with level and two exponents over the sets; sets are told apart by 2 % of load or pressure
-/// Assumed: doubted if p < 0.001; loads and pressures if the largest |m_s| is above 3 %, too
-std::optional<std::string> doubt_sets(const std::vector<FittedPoint>& points);
+/// How far whole sets lie off a law. A set is the points of one load and pressure: its tire is warmed up, its pressure
+/// set and its air taken once for all of them.
+/// Equation  m_s = u_s^T e/|u_s|^2;  B = sum_s m_s^2 |u_s|^2,  s^2 = |e - sum_s m_s u_s|^2/(n - k - q);
+///           t^2 = max(0, (B - (k - p) s^2)/sum_s sum_r (u_s^T P u_r)^2/|u_s|^2);
+///           probability that sets of independent points scatter as much: P(F(k - p, n - k - q) > B/((k - p) s^2))
+/// Symbols   e residuals [N]; u_s forces of the law at the points of set s, 0 at others [N]; P = 1 - J (J^T J)^-1 J^T,
+///           J Jacobian; n points, k sets; p terms of the law that differ from set to set, q its others; t standard
+///           deviation of a set's forces [1], s that of a point within its set [N]
+/// Validity  points of one standard deviation; sets are told apart by 2 % of load or pressure
+/// Source    analysis of variance of a random effect by moments: E(B) = (k - p) s^2 + t^2 sum sum (...)
+/// Checked   tests/estimation/rolling_law_test.cpp, rolling_law_coverage_test.cpp
+struct SetScatter {
+  std::vector<std::size_t> set_of_point;  // by point, from 0
+  std::vector<double> set_errors;         // m_s [1]
+  int freedom = 0;                        // k - p
+  int freedom_within = 0;                 // n - k - q
+  double chance = 1.0;                    // that sets of independent points scatter as much
+  double relative_sd = 0.0;               // t
+  double point_sd_N = 0.0;                // s
+
+  std::size_t set_count() const { return set_errors.size(); }
+  /// Whether intervals have to hold it: unless the points speak for none, and two degrees of freedom at least tell it.
+  /// Assumed: a chance below 0.25, the usual level from which a variance is not pooled
+  bool counts() const;
+};
+
+/// Of a law that has `terms_of_sets` terms that differ from set to set, as level and exponents do. Absent where the
+/// sets or the points within them are too few, or the points do not scatter.
+std::optional<SetScatter> find_set_scatter(const std::vector<FittedPoint>& points, const Eigen::MatrixXd& jacobian,
+                                           int terms_of_sets);
+
+/// A doubt where whole sets lie off the law by more than the points within sets scatter. If a set is far off, its load
+/// or its pressure may be wrong.
+/// Assumed: doubted if the chance is below 0.001; loads and pressures if the largest |m_s| is above 3 %, too
+std::optional<std::string> doubt_sets(const std::vector<FittedPoint>& points, const SetScatter& scatter);
 
 /// (J^T J)^-1 by a QR decomposition of J with columns of unit length; `leverages` gets the diagonal of the hat matrix.
 /// Throws RunFailure where the points do not decide the coefficients.

@@ -118,12 +118,18 @@ Json make_j2452_json(const RollingTest& test, const J2452Fit& fit, const std::op
   json["units"] = {{"F", "N"}, {"P", "kPa"}, {"Z", "N"}, {"v", "km/h"}};
   json["coefficients"] = law_coefficients_json(fit.coefficients);
   json["statistics"] = statistics_json(fit.points, fit.statistics);
+  if (fit.holds_sets) {
+    json["statistics"]["set_scatter"] = {{"sets", fit.set_scatter->set_count()},
+                                         {"degrees_of_freedom", fit.set_scatter->freedom},
+                                         {"sd_percent", 100.0 * fit.set_scatter->relative_sd},
+                                         {"p", fit.set_scatter->chance}};
+  }
   json["range"] = range_json(fit.points);
   if (reference.has_value()) {
-    const int freedom = fit.statistics.freedom;
+    const int freedom = fit.find_freedom();
     Json at = condition_json(reference->condition);
     at["rolling_resistance"] = force_json(reference->force, freedom);
-    put_coefficient(reference->force, reference->condition, fit.statistics.freedom, at);
+    put_coefficient(reference->force, reference->condition, freedom, at);
     at["merf_urban"] = force_json(reference->urban, freedom);
     at["merf_urban"]["cycle"] = reference->cycles.urban_cycle;
     at["merf_highway"] = force_json(reference->highway, freedom);

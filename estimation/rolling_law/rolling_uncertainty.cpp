@@ -1,5 +1,6 @@
 #include "estimation/rolling_law/rolling_uncertainty.h"
 
+#include <optional>
 #include <utility>
 
 #include "estimation/uncertainty/common_inputs.h"
@@ -23,13 +24,22 @@ namespace rolling_input {
 enum : std::size_t { kGain, kParasitic, kLoad, kPressure, kSpeed };
 }
 
+/// How the forces of the points scatter, each by itself and, where there are any, whole sets.
+struct PointScatter {
+  double sd_N = 0.0;
+  int freedom = 0;
+  std::optional<SetScatter> of_sets;
+};
+
 struct RollingInputs {
   std::vector<UncertainInput> inputs;
-  std::size_t scatter = 0;  // place of the first one
+  PointScatter scatter;
+  std::size_t first_scatter = 0;      // place of the first one of the points
+  std::size_t first_set_scatter = 0;  // likewise of the sets
   bool has_speed = false;
 };
 
-RollingInputs make_rolling_inputs(const std::vector<FittedPoint>& points, int freedom, bool has_speed) {
+RollingInputs make_rolling_inputs(const std::vector<FittedPoint>& points, const PointScatter& scatter, bool has_speed) {
   double speed_m_s = 0.0, pressure_Pa = 0.0;
   for (const FittedPoint& at : points) {
     speed_m_s += at.point.speed_m_s / static_cast<double>(points.size());
@@ -45,24 +55,35 @@ RollingInputs make_rolling_inputs(const std::vector<FittedPoint>& points, int fr
   if (has_speed) {
     made.inputs.push_back(make_assumed_input("speed", "speed_km_h", speed_m_s, kRollingSpeedLimit_m_s, "0.1 km/h"));
   }
-  made.scatter = made.inputs.size();
-  for (UncertainInput& scatter :
-       make_scatter_inputs(points.size(), freedom, "scatter of the points", "standard deviation of the residuals")) {
-    made.inputs.push_back(std::move(scatter));
+  made.scatter = scatter;
+  const auto add = [&made](std::vector<UncertainInput> inputs) {
+    const std::size_t first = made.inputs.size();
+    made.inputs.insert(made.inputs.end(), inputs.begin(), inputs.end());
+    return first;
+  };
+  made.first_scatter = add(make_scatter_inputs(points.size(), scatter.freedom, "scatter of the points",
+                                               "standard deviation of the residuals"));
+  if (scatter.of_sets.has_value()) {
+    made.first_set_scatter = add(make_scatter_inputs(scatter.of_sets->set_count(), scatter.of_sets->freedom,
+                                                     "scatter from set to set", "how far sets lie off the law"));
   }
   return made;
 }
 
 /// Points as they would be measured with the errors of the inputs.
-std::vector<RollingPoint> apply_errors(const std::vector<FittedPoint>& points, double residual_sd_N,
-                                       const RollingInputs& made, const std::vector<double>& x) {
-  const std::vector<double> scatter = take_scatter(x, made.scatter, points.size());
+std::vector<RollingPoint> apply_errors(const std::vector<FittedPoint>& points, const RollingInputs& made,
+                                       const std::vector<double>& x) {
+  const std::vector<double> scatter = take_scatter(x, made.first_scatter, points.size());
+  const std::optional<SetScatter>& of_sets = made.scatter.of_sets;
+  const std::vector<double> set_scatter =
+      of_sets.has_value() ? take_scatter(x, made.first_set_scatter, of_sets->set_count()) : std::vector<double>{};
   const auto error_of = [&](std::size_t i) { return x[i] - made.inputs[i].value; };
   std::vector<RollingPoint> measured;
   for (std::size_t i = 0; i < points.size(); ++i) {
     RollingPoint point = points[i].point;
-    point.force_N =
-        x[rolling_input::kGain] * (points[i].fitted_N + residual_sd_N * scatter[i]) + x[rolling_input::kParasitic];
+    const double of_set = of_sets.has_value() ? of_sets->relative_sd * set_scatter[of_sets->set_of_point[i]] : 0.0;
+    const double force_N = points[i].fitted_N * (1.0 + of_set) + made.scatter.sd_N * scatter[i];
+    point.force_N = x[rolling_input::kGain] * force_N + x[rolling_input::kParasitic];
     point.load_N *= x[rolling_input::kLoad];
     point.pressure_Pa += error_of(rolling_input::kPressure);
     if (made.has_speed) point.speed_m_s += error_of(rolling_input::kSpeed);
@@ -89,6 +110,11 @@ std::vector<std::string> list_rolling_left_out(const RollingTest& test) {
   return left_out;
 }
 
+PointScatter find_point_scatter(const J2452Fit& fit) {
+  if (!fit.holds_sets) return {fit.statistics.residual_sd_N, fit.statistics.freedom, {}};
+  return {fit.set_scatter->point_sd_N, fit.set_scatter->freedom_within, fit.set_scatter};
+}
+
 }  // namespace
 
 MeasurementModel make_j2452_model(const RollingTest& test, const J2452Fit& fit,
@@ -103,12 +129,11 @@ MeasurementModel make_j2452_model(const RollingTest& test, const J2452Fit& fit,
                                                      {"MERF, " + reference->cycles.highway_cycle, "merf_highway_N"},
                                                      {"SMERF", "smerf_N"}});
   }
-  const RollingInputs made = make_rolling_inputs(fit.points, fit.statistics.freedom, true);
+  const RollingInputs made = make_rolling_inputs(fit.points, find_point_scatter(fit), true);
   model.inputs = made.inputs;
   model.left_out = list_rolling_left_out(test);
-  model.evaluate = [points = fit.points, sd_N = fit.statistics.residual_sd_N, made,
-                    reference](const std::vector<double>& x) {
-    const J2452Fit again = fit_j2452(apply_errors(points, sd_N, made, x));
+  model.evaluate = [points = fit.points, made, reference](const std::vector<double>& x) {
+    const J2452Fit again = fit_j2452(apply_errors(points, made, x));
     std::vector<double> results{again.law.alpha, again.law.beta};
     if (reference.has_value()) {
       const J2452Reference at = evaluate_reference(again, reference->condition, reference->cycles);
@@ -126,14 +151,14 @@ MeasurementModel make_multipoint_model(const RollingTest& test, const Multipoint
   MeasurementModel model;
   const std::string at = reference.has_value() ? "reference" : "mean load, pressure";
   model.measurands = {{"F at " + at, "rolling_resistance_N"}, {"RRc", "rrc_N_per_kN"}};
-  const RollingInputs made = make_rolling_inputs(fit.points, fit.statistics.freedom, false);
+  const RollingInputs made =
+      make_rolling_inputs(fit.points, {fit.statistics.residual_sd_N, fit.statistics.freedom, {}}, false);
   model.inputs = made.inputs;
   model.left_out = list_rolling_left_out(test);
   const double load_N = reference.has_value() ? reference->condition.load_N : fit.load_0_N;
   const double pressure_Pa = reference.has_value() ? reference->condition.pressure_Pa : fit.pressure_0_Pa;
-  model.evaluate = [points = fit.points, form = fit.form, sd_N = fit.statistics.residual_sd_N, made, load_N,
-                    pressure_Pa](const std::vector<double>& x) {
-    const MultipointFit again = fit_multipoint(apply_errors(points, sd_N, made, x), form);
+  model.evaluate = [points = fit.points, form = fit.form, made, load_N, pressure_Pa](const std::vector<double>& x) {
+    const MultipointFit again = fit_multipoint(apply_errors(points, made, x), form);
     const double force_N = again.estimate_force(load_N, pressure_Pa).value_N;
     return std::vector<double>{force_N, force_N / load_N};
   };

@@ -383,29 +383,102 @@ std::vector<RollingPoint> make_scattered_sets(double set_sd, std::uint64_t seed)
   return points;
 }
 
+std::optional<std::string> doubt_sets_of(const std::vector<RollingPoint>& points) {
+  const estimation::J2452Fit fit = estimation::fit_j2452(points, estimation::RandomPart::kPointsAndSets);
+  REQUIRE(fit.set_scatter.has_value());
+  return estimation::doubt_sets(fit.points, *fit.set_scatter);
+}
+
 }  // namespace
 
 TEST_CASE("sets whose pressure is absolute lie off the law together", "[fast]") {
   std::vector<RollingPoint> points = make_scattered_sets(0.0, 3);
-  CHECK_FALSE(estimation::doubt_sets(estimation::fit_j2452(points).points).has_value());
+  CHECK_FALSE(doubt_sets_of(points).has_value());
   for (RollingPoint& point : points) {
     if (point.pressure_Pa < 181e3) point.pressure_Pa += 101.3e3;
   }
-  const auto doubt = estimation::doubt_sets(estimation::fit_j2452(points).points);
+  const auto doubt = doubt_sets_of(points);
   REQUIRE(doubt.has_value());
   CHECK_THAT(*doubt, Catch::Contains("281 kPa") && Catch::Contains("gauge?"));
 }
 
-TEST_CASE("sets that scatter together are said to make the intervals too narrow, independent points are not",
-          "[fast]") {
+TEST_CASE("sets that scatter together are said to, independent points are not", "[fast]") {
   int scattered = 0, independent = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const auto doubt = estimation::doubt_sets(estimation::fit_j2452(make_scattered_sets(0.01, seed)).points);
-    scattered += doubt.has_value() && doubt->find("too narrow") != std::string::npos ? 1 : 0;
-    independent += estimation::doubt_sets(estimation::fit_j2452(make_scattered_sets(0.0, seed)).points).has_value();
+    const auto doubt = doubt_sets_of(make_scattered_sets(0.01, seed));
+    scattered += doubt.has_value() && doubt->find("the intervals hold that") != std::string::npos ? 1 : 0;
+    independent += doubt_sets_of(make_scattered_sets(0.0, seed)).has_value();
   }
   CHECK(scattered >= 30);  // 34: at p < 0.001, some scatters of 1 % stay unseen
   CHECK(independent <= 1);
+}
+
+TEST_CASE("the scatter of sets is found by its size, and beside it that of points", "[fast]") {
+  double set_variance = 0.0, point_variance_N2 = 0.0;
+  constexpr int kSeeds = 400;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const auto scatter = estimation::fit_j2452(make_scattered_sets(0.01, seed)).set_scatter;
+    REQUIRE(scatter.has_value());
+    CHECK(scatter->set_count() == 7);
+    CHECK(scatter->freedom == 4);
+    CHECK(scatter->freedom_within == 49 - 7 - 2);
+    set_variance += std::pow(scatter->relative_sd, 2) / kSeeds;
+    point_variance_N2 += std::pow(scatter->point_sd_N, 2) / kSeeds;
+  }
+  CHECK(std::sqrt(set_variance) == Approx(0.01).epsilon(0.1));  // a chi square of 4 in each: 3.5 % of the mean's root
+  CHECK(std::sqrt(point_variance_N2) == Approx(0.1).epsilon(0.05));
+}
+
+TEST_CASE("where sets scatter, more points of a set do not make the intervals of the exponents narrow", "[fast]") {
+  const auto find_width = [](std::size_t copies, estimation::RandomPart random) {
+    std::vector<RollingPoint> points;
+    RandomStream noise(5, "copies");
+    for (const RollingPoint& point : make_scattered_sets(0.02, 5)) {
+      for (std::size_t i = 0; i < copies; ++i) {
+        points.push_back(point);
+        points.back().force_N += 0.1 * noise.normal();
+      }
+    }
+    const ParameterEstimate alpha = estimation::fit_j2452(points, random).coefficients[0];
+    return alpha.high_95 - alpha.low_95;
+  };
+  using estimation::RandomPart;
+  CHECK(find_width(16, RandomPart::kPointsAndSets) > 0.9 * find_width(1, RandomPart::kPointsAndSets));
+  CHECK(find_width(16, RandomPart::kPoints) < 0.3 * find_width(1, RandomPart::kPoints));
+}
+
+TEST_CASE("too few sets, or sets that do not scatter, leave the intervals those of the points", "[fast]") {
+  using estimation::RandomPart;
+  const auto widths = [](const std::vector<RollingPoint>& points, RandomPart random) {
+    std::vector<double> all;
+    for (const auto& one : estimation::fit_j2452(points, random).coefficients) all.push_back(one.high_95 - one.low_95);
+    return all;
+  };
+  std::vector<RollingPoint> four = make_scattered_sets(0.02, 5);
+  four.resize(28);
+  CHECK(widths(four, RandomPart::kPointsAndSets) == widths(four, RandomPart::kPoints));
+  CHECK_THAT(*doubt_sets_of(four), Catch::Contains("too narrow"));
+  int counted = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const auto points = make_scattered_sets(0.0, seed);
+    const bool same = widths(points, RandomPart::kPointsAndSets) == widths(points, RandomPart::kPoints);
+    counted += same ? 0 : 1;
+  }
+  CHECK(counted == Approx(50).margin(20));  // p < 0.25
+}
+
+TEST_CASE("sets that scatter by 1 % show no parasitic loss", "[fast]") {
+  int doubted = 0, found = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    std::vector<RollingPoint> points = make_scattered_sets(0.01, seed);
+    const auto fit = [&points] { return estimation::fit_j2452(points, estimation::RandomPart::kPointsAndSets); };
+    doubted += estimation::doubt_parasitic_loss(fit()).has_value() ? 1 : 0;
+    points = make_scattered_sets(0.0, seed);
+    for (RollingPoint& point : points) point.force_N += 8.0;
+    found += estimation::doubt_parasitic_loss(fit()).has_value() ? 1 : 0;
+  }
+  CHECK(doubted <= 2);
+  CHECK(found >= 90);
 }
 
 TEST_CASE("a parasitic loss that was not subtracted shows beside the law, and tires without one are not doubted",

@@ -73,6 +73,33 @@ TEST_CASE("the scatter of the points contributes what the fit states as standard
   CHECK(at.budget("rolling_resistance_N").value == Approx(at.reference.force.value_N).epsilon(1e-6));
 }
 
+TEST_CASE("the scatter of sets contributes what the fit states, with the degrees of freedom of the sets", "[fast]") {
+  RandomStream random(4, "sets");
+  RollingTest test = make_rolling_test(0.1);
+  const std::vector<RollingPoint> first = test.points;
+  for (std::size_t i = 0; i < 12; ++i) {  // two further loads
+    test.points.push_back(first[i]);
+    test.points.back().load_N += 1000.0;
+    test.points.back().force_N = kRollingTruth.calc_force_N(test.points.back().pressure_Pa, test.points.back().load_N,
+                                                            test.points.back().speed_m_s);
+  }
+  for (std::size_t set = 0; set < 6; ++set) {
+    const double factor = 1.0 + 0.02 * random.normal();
+    for (std::size_t i = 0; i < 6; ++i) test.points[6 * set + i].force_N *= factor;
+  }
+  const J2452Fit fit = fit_j2452(test.points, RandomPart::kPointsAndSets);
+  REQUIRE(fit.holds_sets);
+  const std::vector<UncertaintyBudget> budgets = calc_budgets(make_j2452_model(test, fit, std::nullopt));
+  for (std::size_t i = 0; i < 2; ++i) {
+    double variance = 0.0;
+    for (const Contribution& line : budgets[i].contributions) {
+      if (line.input.name.rfind("scatter", 0) == 0) variance += line.contribution * line.contribution;
+      if (line.input.name == "scatter from set to set") CHECK(line.input.degrees_freedom == 6 - 3);
+    }
+    CHECK(std::sqrt(variance) == Approx(fit.coefficients[i].sd).epsilon(0.05));
+  }
+}
+
 TEST_CASE("an error that all points share moves the law as its equation says", "[fast]") {
   const LawCase at(0.0);
   const double force_N = at.reference.force.value_N;
