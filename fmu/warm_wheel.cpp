@@ -414,7 +414,7 @@ void WarmWheel::advance(double duration_s) {
   sim::Program program;
   program.phases.push_back({"", {make_segment(duration_s)}, {}, {}});
   double end_s = time_s_;
-  program = rigs::refine_near_standstill(program, kSpeed);
+  program = rigs::refine_near_standstill(std::move(program), kSpeed);
   for (const sim::Segment& piece : program.phases.front().segments) {
     end_s += piece.duration_s;
     simulation.wheel.begin_segment(piece, simulation.integrator.time_s(), simulation.integrator.state(),

@@ -138,7 +138,7 @@ sim::Recording<S> run_on(Machine&& machine, const sim::Program& program) {
   return sim::simulate<S>(machine, integrator, program);
 }
 
-/// While speed and load are held. Assumed: from 10 s, two fifths of the gas's time constant, to 80 s.
+/// While speed and load are constant. Assumed: from 10 s, two fifths of the gas's time constant, to 80 s.
 constexpr sim::StepGrowth kHeldSteps{10.0, 80.0};
 
 /// Steps for the integrator. Assumed: while the speed changes, at most 10 s and the time in which it changes by 0.75
@@ -175,7 +175,7 @@ Resimulation::Resimulation(const MeasuredRun& run, const MachineKind& kind)
     : program_(make_recorded_program(run, kind)) {
   if (!is_of_vehicle(kind.traits)) {
     limit_steps(program_.phases.front());
-    program_ = rigs::refine_near_standstill(program_, rigs::index_of(DrumInput::kSpeed));
+    program_ = rigs::refine_near_standstill(std::move(program_), rigs::index_of(DrumInput::kSpeed));
   }
 }
 

@@ -9,8 +9,9 @@ namespace rollrig::rigs {
 
 namespace {
 
-constexpr double kBand_m_s = 0.4;     // where tanh(v / 0.05 m/s) is 1 to 1e-7
-constexpr double kStep_m_s = 0.0125;  // a quarter of the fade's width
+constexpr double kBand_m_s = 0.4;  // where tanh(v / 0.05 m/s) is 1 to 1e-7
+// Assumed: a quarter of the fade's width, where Simpson's rule finds the mean of tanh to 1e-6.
+constexpr double kStep_m_s = 0.0125;
 
 /// When a segment enters or leaves the band, in order, between its start and its end, both of which are listed too.
 std::vector<double> list_cuts_s(const sim::Ramp& speed, double duration_s) {

@@ -65,7 +65,8 @@ class FixedGridIntegrator : public Integrator<S> {
   /// At the start of a segment, from y_ at time_s_.
   virtual void begin() { evaluate(time_s_, y_, rate_); }
 
-  /// One step from y_before_ at before_s_, whose rate is rate_before_, and the rate at its end.
+  /// One step from y_before_ at before_s_, whose rate is rate_before_, and the rate at its end, or one that interpolates
+  /// as well.
   virtual void advance_to(double target_s) {
     step_classically(target_s);
     evaluate(target_s, y_, rate_);

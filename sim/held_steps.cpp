@@ -12,7 +12,7 @@ bool is_held(const Segment& segment) {
                      [](const Ramp& input) { return input.slope_per_s == 0.0; });
 }
 
-/// Of two held segments that follow each other.
+/// At the start.
 bool has_same_inputs(const Segment& a, const Segment& b) {
   return std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(),
                     [](const Ramp& x, const Ramp& y) { return x.start == y.start; });
@@ -25,7 +25,8 @@ void lengthen_held_steps(const StepGrowth& growth, Phase& phase) {
   for (Segment& segment : phase.segments) {
     if (!is_held(segment) || segment.max_step_s > 0.0) {
       since_change_s = 0.0;
-      if (segment.max_step_s <= 0.0) segment.max_step_s = growth.first_s;
+      const double own_s = segment.max_step_s > 0.0 ? segment.max_step_s : growth.first_s;
+      segment.max_step_s = std::min(own_s, growth.first_s);
       parts.push_back(std::move(segment));
       continue;
     }

@@ -7,9 +7,9 @@
 
 namespace rollrig::sim {
 
-/// Steps after a change: of `first_s` at most for so many steps, then twice as long, and so on, up to `most_s`.
-/// What is left to settle takes as long as it has taken so far, so that a step stays between a fortieth and an
-/// eightieth of that time, of 80 steps. Assumed: 80.
+/// How steps grow after a change of an input: `first_s` at most for N = `steps_before_doubling` such steps, then twice as
+/// long, and so on, up to `most_s`. Steps that have grown are between 1/N and 2/N of the time since the change: what has
+/// not settled by then changes about as slowly as that time is long. Assumed: N = 80.
 struct StepGrowth {
   double first_s = 0.0;
   double most_s = 0.0;
@@ -18,13 +18,13 @@ struct StepGrowth {
   double find_longest_s(double since_change_s) const;
 };
 
-/// Parts of a segment without a change, in each of which steps are equally long. The last change was `since_change_s`
-/// before the segment.
+/// Appends the parts of a segment in which no input changes; in each, steps are equally long. The last change was
+/// `since_change_s` before the segment.
 void append_held_parts(const Segment& segment, double since_change_s, const StepGrowth& growth,
                        std::vector<Segment>& parts);
 
-/// The same program, its steps growing from those of each phase where all inputs are held. A phase is a change. Not in
-/// phases that may end early, where something is not in balance with its inputs.
+/// The same program with growing steps wherever all inputs are constant. The start of a phase counts as a change. Phases
+/// that may end early keep their steps: there the state changes although no input does, such as the speed of a coastdown.
 /// Checked   tests/sim/held_steps_test.cpp
 Program lengthen_held_steps(Program program, double most_s, double steps_before_doubling = 80.0);
 

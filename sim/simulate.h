@@ -120,7 +120,8 @@ class Sampler {
   }
   bool is_written(long k) const { return (k - first_of_phase_) % stride_ == 0; }
 
-  /// Passes over rows that are not written and of whose ends no mean needs the integrals.
+  /// Skips rows that are not written and at whose ends no mean needs the integrals. The mean of a written row begins at
+  /// the end of the row before, so that this one is kept, and one more for rounding.
   void pass_unwritten(double until_s) {
     if (stride_ < 3 || !program_.sample_times_s.empty()) return;
     const long written = next_ + (stride_ - (next_ - first_of_phase_) % stride_) % stride_;

@@ -53,27 +53,32 @@ struct ChebyshevRule {
   }
 };
 
-/// Steps of up to 10 s by the classical rule (fixed_grid_integrator.h); longer ones by the rule of Runge, Kutta and
-/// Chebyshev with as many stages as are stable for whatever is stable in 10 s: 6 in 60 s, where the classical rule
-/// takes 24 evaluations. After a short step, the rates of the classical rule's last stage stand for those at its end
-/// where something is interpolated: an evaluation less in each segment of one step, such as a row of a drive cycle.
+/// Steps of up to `longest_classical_s` by the classical rule (fixed_grid_integrator.h); longer ones by the rule of
+/// Runge, Kutta and Chebyshev with as many stages as are stable for whatever is stable in that time: of 10 s, 6 in 60
+/// s, where the classical rule takes 24 evaluations. After a step of up to 2 s, interpolation uses the rates of the
+/// last stage instead of those at the end. This saves an evaluation in each segment of one step, such as a row of a
+/// drive cycle.
 ///
 /// Validity  as ChebyshevRule; longer steps where what changes within less than a few of them has died away
-/// Accuracy  order 4 in steps of up to 10 s, else 2; between, order 4 as well, and order 3 in the rate of an integral
+/// Accuracy  of the classical rule order 4, at the ends of steps and between, and order 3 in the rate of an integral
+///           between; of longer steps order 2
 /// Checked   tests/sim/stabilized_integrator_test.cpp
 template <class S>
 class StabilizedIntegrator : public FixedGridIntegrator<S> {
  public:
-  using FixedGridIntegrator<S>::FixedGridIntegrator;
+  explicit StabilizedIntegrator(OdeSystem<S>& system, double longest_classical_s = kLongestClassical_s)
+      : FixedGridIntegrator<S>(system), longest_classical_s_(longest_classical_s) {}
 
-  static constexpr double kLongestShort_s = 2.0;  // Assumed: a twelfth of the gas's time constant
+  static constexpr double kLongestShort_s = 2.0;  // Assumed: above the second from row to row of a drive cycle
   static constexpr double kLongestClassical_s = 10.0;
 
-  /// Stages of a step. Assumed: no eigenvalue beyond that which the classical rule bears in 10 s, -0.278/s.
-  static int count_stages(double step_s) {
-    constexpr double kFastest_per_s = 2.78 / kLongestClassical_s;
+  /// Stages of a step. Assumed: no eigenvalue beyond that which the classical rule bears in its longest step, -0.278/s
+  /// of 10 s.
+  static int count_stages(double step_s, double longest_classical_s = kLongestClassical_s) {
+    constexpr double kBorneByClassical = 2.78;
     constexpr double kBorne = 0.653;  // of s^2 - 1
-    return std::max(2, static_cast<int>(std::ceil(std::sqrt(1.0 + kFastest_per_s * step_s / kBorne))));
+    const double stages = std::sqrt(1.0 + kBorneByClassical * step_s / longest_classical_s / kBorne);
+    return std::max(2, static_cast<int>(std::ceil(stages)));
   }
 
  private:
@@ -91,7 +96,7 @@ class StabilizedIntegrator : public FixedGridIntegrator<S> {
     const double h_s = target_s - before_s_;
     if (!has_rate_at_end_) this->evaluate(before_s_, y_before_, rate_before_);
     has_rate_at_end_ = h_s > kLongestShort_s * kRounding || this->is_watched();
-    if (h_s > kLongestClassical_s * kRounding) return advance_far(target_s);
+    if (h_s > longest_classical_s_ * kRounding) return advance_far(target_s);
     if (has_rate_at_end_) return Base::advance_to(target_s);
     this->step_classically(target_s);
     std::swap(rate_, k4_);
@@ -99,7 +104,7 @@ class StabilizedIntegrator : public FixedGridIntegrator<S> {
 
   void advance_far(double target_s) {
     const double h_s = target_s - before_s_;
-    const ChebyshevRule& rule = find_rule(count_stages(h_s));
+    const ChebyshevRule& rule = find_rule(count_stages(h_s, longest_classical_s_));
     // Of the stages what they add to y, so that little is lost to rounding: of the one before, and of that before it.
     Vector before(this->total_, zero<S>());
     Vector before_last = before;
@@ -127,6 +132,7 @@ class StabilizedIntegrator : public FixedGridIntegrator<S> {
     return rules_[static_cast<std::size_t>(stages)];
   }
 
+  double longest_classical_s_;
   bool has_rate_at_end_ = true;       // whether rate_ is that of y_, not of a stage
   std::vector<ChebyshevRule> rules_;  // by stages
 };

@@ -43,7 +43,6 @@ void DrumProgram::soak_and_inflate(double pressure_Pa) {
     if (duration_s <= 0.0) return nullptr;
     sim::Phase& phase = append(name, duration_s, 0.0);
     phase.row_stride = row_stride;
-    phase.max_step_s = kMaxStepAtRest_s;
     return &phase;
   };
   rest("soak", conditions_.soak_s);

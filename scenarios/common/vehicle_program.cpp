@@ -58,9 +58,7 @@ void VehicleProgram::add_line(sim::Phase& phase, double duration_s, double end_m
 
 void VehicleProgram::rest(const std::string& name, double duration_s) {
   if (duration_s <= 0.0) return;
-  sim::Phase& phase = append(name);
-  phase.max_step_s = kMaxStepAtRest_s;
-  add_line(phase, duration_s, 0.0);
+  add_line(append(name), duration_s, 0.0);
 }
 
 void VehicleProgram::drive(const SpeedTrace& trace, const std::string& name) {

@@ -70,14 +70,15 @@ sim::Recording<double> run_multibody(sim::OdeSystem<double>& rig, const sim::Pro
 
 sim::Recording<double> run_quasi_static(sim::OdeSystem<double>& rig, sim::Program program, std::size_t speed_input,
                                         const RunSpec& spec, const sim::Progress& progress) {
-  sim::StabilizedIntegrator<double> integrator(rig);
-  // Assumed: steps of at most a quarter of the time in which a tire cools, some 20 min, and a fiftieth of the time
-  // since a change. Temperatures are then within 1 mK of those of short steps.
+  // Assumed: steps of at most about a quarter of the time in which a tire cools, some 20 min, and a fiftieth of the
+  // time since a change. Temperatures of the stored cases are then within 1 mK of those of short steps.
   constexpr double kMost_s = 320.0;
   constexpr double kStepsBeforeDoubling = 100.0;
+  const double finer = std::min(1.0, spec.tolerance_factor);
+  // What is stable in the steps of a phase stays stable when they grow.
+  sim::StabilizedIntegrator<double> integrator(rig, finer * sim::Phase{}.max_step_s);
   sim::Program on_grid = rigs::refine_near_standstill(
       sim::lengthen_held_steps(std::move(program), kMost_s, kStepsBeforeDoubling), speed_input);
-  const double finer = std::min(1.0, spec.tolerance_factor);
   for (sim::Phase& phase : on_grid.phases) {
     phase.max_step_s *= finer;
     for (sim::Segment& segment : phase.segments) segment.max_step_s *= finer;

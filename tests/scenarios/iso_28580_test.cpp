@@ -115,6 +115,24 @@ TEST_CASE("halving the grid of the quasi-static run changes RRc by less than 1e-
   CHECK(number(scenarios::run_scenario(spec, {}), "rrc_N_per_kN") == Approx(rrc).epsilon(1e-5));
 }
 
+TEST_CASE("parts that change fast do not make long quasi-static steps unstable", "[fast]") {
+  const std::vector<std::vector<std::string>> fast{
+      {"tire.thermal.H_gas_W_per_K=30", "warm_up_min=60"},
+      {"tire.thermal.gas_heat_capacity_J_per_K=10", "warm_up_min=60"},
+      {"speed_km_h=120", "warm_up_min=125", "effects.flat_spot.excess_percent=8", "effects.flat_spot.distance_km=0.1"}};
+  for (const std::vector<std::string>& settings : fast) {
+    INFO(settings.front());
+    scenarios::RunSpec spec = make_spec("warm_up", "a50", settings, "quasi_static");
+    const scenarios::Outcome usual = scenarios::run_scenario(spec, {});
+    spec.tolerance_factor = 0.1;
+    const scenarios::Outcome fine = scenarios::run_scenario(spec, {});
+    for (const char* channel : {"rolling_resistance_N", "cavity_pressure_kPa", "liner_temperature_degC"}) {
+      const double value = usual.recording.channel(channel).back();
+      CHECK(value == Approx(fine.recording.channel(channel).back()).epsilon(1e-5));
+    }
+  }
+}
+
 TEST_CASE("results are bit-identical from one or two threads", "[fast]") {
   const std::vector<std::string> loads{"5000", "5500", "6000", "6500", "7000"};
   const auto sweep = [&](int threads) {
