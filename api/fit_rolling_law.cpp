@@ -165,14 +165,12 @@ RollingLaw fit_j2452(const std::string& path, const RollingLawOptions& options, 
   check_uncertainty(uncertainty);
   const ReadRecorder recorder;
   RollingTest test = read_points(path, options);
-  // Of a simulated test, loads and pressures are known, and what sets lie off the law is the law's own.
+  // A simulated test has exact loads and pressures. If its sets lie off the law, the cause is the law.
   const auto random = test.is_simulated ? estimation::RandomPart::kPoints : estimation::RandomPart::kPointsAndSets;
   estimation::J2452Fit fit =
       fit_points(test, [random](const auto& points) { return estimation::fit_j2452(points, random); });
   if (const auto doubt = estimation::doubt_parasitic_loss(fit)) fit.warnings.push_back(*doubt);
-  const bool sets_are_told = !test.is_simulated && fit.set_scatter.has_value();
-  const auto sets = sets_are_told ? estimation::doubt_sets(fit.points, *fit.set_scatter) : std::nullopt;
-  if (sets.has_value()) fit.warnings.push_back(*sets);
+  if (const auto doubt = estimation::doubt_sets(fit)) fit.warnings.push_back(*doubt);
   std::optional<estimation::J2452Reference> reference;
   if (const auto at = find_reference(test)) {
     warn_of_reference(*at, true, test);

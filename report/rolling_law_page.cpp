@@ -269,12 +269,12 @@ std::vector<Table> make_j2452_tables(const J2452Fit& fit, const std::optional<J2
     tables.push_back(list);
   }
   tables.push_back(make_statistics_rows(fit.statistics));
-  if (fit.holds_sets) {
+  if (fit.includes_set_scatter()) {
     const estimation::SetScatter& scatter = *fit.set_scatter;
     tables.back().rows.push_back(
         {"scatter from set to set",
          fmt::format("{:.2g} % of the force, {} of freedom (p = {:.2g})", 100.0 * scatter.relative_sd,
-                     format_count(static_cast<std::size_t>(scatter.freedom), "degree"), scatter.chance)});
+                     format_count(static_cast<std::size_t>(fit.find_freedom()), "degree"), scatter.chance)});
   }
   return tables;
 }

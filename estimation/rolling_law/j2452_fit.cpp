@@ -23,7 +23,6 @@ namespace {
 
 constexpr int kJ2452Coefficients = 5;
 constexpr std::size_t kLeastJ2452Points = 6;  // one more than coefficients
-constexpr int kTermsOfSets = 3;               // level and two exponents
 constexpr int kOffsetTerms = 2;               // of a force that depends on speed alone: 1, v^2
 
 using Vector5 = Eigen::Matrix<double, kJ2452Coefficients, 1>;
@@ -216,17 +215,12 @@ Eigen::MatrixXd calc_law_covariance(double point_sd, const Eigen::MatrixXd& inve
   return point_sd * point_sd * inverse;
 }
 
-/// The same where sets scatter as well.
-Eigen::MatrixXd calc_law_covariance(const J2452Fit& fit, const SetScatter& scatter, const Eigen::MatrixXd& jacobian,
-                                    const Eigen::MatrixXd& inverse) {
-  Eigen::MatrixXd of_sets = Eigen::MatrixXd::Zero(jacobian.cols(), static_cast<Eigen::Index>(scatter.set_count()));
-  for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
-    const auto point = static_cast<std::size_t>(i);
-    of_sets.col(static_cast<Eigen::Index>(scatter.set_of_point[point])) +=
-        fit.points[point].fitted_N / fit.force_0_N * jacobian.row(i).transpose();
-  }
-  const Eigen::MatrixXd moved = scatter.relative_sd * inverse * of_sets;
-  return calc_law_covariance(scatter.point_sd_N / fit.force_0_N, inverse) + moved * moved.transpose();
+/// The same if sets scatter as well.
+Eigen::MatrixXd calc_law_covariance(double force_0_N, const std::vector<FittedPoint>& points, const SetScatter& scatter,
+                                    const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& inverse) {
+  const Eigen::MatrixXd moved =
+      scatter.relative_sd / force_0_N * inverse * jacobian.transpose() * make_set_columns(points, scatter.set_of_point);
+  return calc_law_covariance(scatter.point_sd_N / force_0_N, inverse) + moved * moved.transpose();
 }
 
 void warn_of_j2452(const Eigen::MatrixXd& jacobian, J2452Fit& fit) {
@@ -254,7 +248,7 @@ OffsetForce find_offset_force(const J2452Fit& fit, const std::vector<ScaledPoint
   const Eigen::VectorXd found =
       minimize_scaled(points, {fit.law.alpha, fit.law.beta, fit.q(0), fit.q(1), fit.q(2), 0.0, 0.0});
   const auto count = static_cast<Eigen::Index>(points.size());
-  constexpr double kSetsScatter = 0.01;  // Assumed: above that chance, points are taken as independent
+  constexpr double kSetsScatterBelow = 0.01;  // Assumed: at 0.25, chance would hide every fourth loss
   Eigen::MatrixXd jacobian(count, found.size());
   std::vector<FittedPoint> fitted = fit.points;
   double squares = 0.0;
@@ -271,11 +265,16 @@ OffsetForce find_offset_force(const J2452Fit& fit, const std::vector<ScaledPoint
   const double middle = fit.speed_0_m_s / (fit.speed_0_m_s + fit.half_range_m_s);
   const Eigen::Vector2d at_middle(1.0, middle * middle);
   const double value = found.tail<kOffsetTerms>().dot(at_middle);
-  const auto scatter = find_set_scatter(fitted, jacobian, kTermsOfSets + 1);
-  const bool sets_scatter = scatter.has_value() && scatter->chance < kSetsScatter;
+  const auto scatter = fit.set_scatter.has_value() ? find_set_scatter(fitted, jacobian) : std::nullopt;
+  constexpr double kLeastFreedom = 2.0;  // Assumed: with less, the test finds no scatter of sets
+  if (fit.includes_set_scatter() && (!scatter.has_value() || scatter->freedom < kLeastFreedom)) {
+    throw RunFailure("too few sets to tell their scatter from a force that depends on speed alone");
+  }
+  const bool sets_scatter = scatter.has_value() && scatter->chance < kSetsScatterBelow;
   const double freedom = sets_scatter ? scatter->freedom : static_cast<double>(count - found.size());
-  const Eigen::MatrixXd covariance = sets_scatter ? calc_law_covariance(fit, *scatter, jacobian, inverse)
-                                                  : calc_law_covariance(std::sqrt(squares / freedom), inverse);
+  const Eigen::MatrixXd covariance = sets_scatter
+                                         ? calc_law_covariance(fit.force_0_N, fitted, *scatter, jacobian, inverse)
+                                         : calc_law_covariance(std::sqrt(squares / freedom), inverse);
   const double sd = std::sqrt(at_middle.dot(covariance.bottomRightCorner<kOffsetTerms, kOffsetTerms>() * at_middle));
   const double t = sd > 0.0 ? value / sd : 0.0;
   const double chance = boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), t));
@@ -314,6 +313,30 @@ std::optional<std::string> doubt_parasitic_loss(const J2452Fit& fit) {
       offset.value_N, offset.chance, offset.alpha, offset.beta);
 }
 
+std::optional<std::string> doubt_sets(const J2452Fit& fit) {
+  constexpr double kMisses = 0.03, kUnlikely = 0.001;
+  if (!fit.set_scatter.has_value() || fit.set_scatter->chance >= kUnlikely) return std::nullopt;
+  const SetScatter& scatter = *fit.set_scatter;
+  const std::string text = fmt::format(
+      "points of one load and pressure lie off the law together, by a standard deviation of {:.1f} % (p = {:.2g}): {}",
+      1e2 * scatter.relative_sd, scatter.chance,
+      fit.includes_set_scatter()
+          ? "the intervals include this scatter. More sets would make them narrower; more points of each set would not"
+          : fmt::format("the intervals take all points as independent, and are too narrow. They include such a scatter "
+                        "of five sets or more; there are {}",
+                        scatter.set_count()));
+  const auto worst = std::max_element(scatter.set_errors.begin(), scatter.set_errors.end(),
+                                      [](double one, double other) { return std::abs(one) < std::abs(other); });
+  if (std::abs(*worst) <= kMisses) return text;
+  const auto set = static_cast<std::size_t>(worst - scatter.set_errors.begin());
+  const auto first = std::find(scatter.set_of_point.begin(), scatter.set_of_point.end(), set);
+  const RollingPoint& point = fit.points[static_cast<std::size_t>(first - scatter.set_of_point.begin())].point;
+  return text + fmt::format(
+                    ". Those at {:.0f} N and {:.0f} kPa are off by {:+.0f} %: are loads and pressures of all sets "
+                    "right, the pressures gauge, and the parasitic loss subtracted?",
+                    point.load_N, point.pressure_Pa / 1e3, 1e2 * *worst);
+}
+
 ForceEstimate J2452Fit::estimate(double pressure_Pa, double load_N, double mean_x, double mean_x2) const {
   Vector5 found;
   found << law.alpha, law.beta, q;
@@ -337,12 +360,6 @@ ForceEstimate J2452Fit::estimate_mean(double pressure_Pa, double load_N, const S
   return estimate(pressure_Pa, load_N, mean_x, mean_x2);
 }
 
-double J2452Fit::calc_prediction_sd_N(const ReferenceCondition& at) const {
-  const ForceEstimate force = estimate_force(at);
-  if (!holds_sets) return std::hypot(force.sd_N, statistics.residual_sd_N);
-  return std::hypot(force.sd_N, set_scatter->point_sd_N, set_scatter->relative_sd * force.value_N);
-}
-
 J2452Fit fit_j2452(const std::vector<RollingPoint>& points, RandomPart random) {
   require_decided(points);
   J2452Fit fit;
@@ -360,10 +377,10 @@ J2452Fit fit_j2452(const std::vector<RollingPoint>& points, RandomPart random) {
   const Eigen::MatrixXd inverse = invert_normal(jacobian, leverages);
   for (std::size_t i = 0; i < leverages.size(); ++i) fit.points[i].leverage = leverages[i];
   fit.statistics = calc_statistics(fit.points, kJ2452Coefficients);
-  fit.set_scatter = find_set_scatter(fit.points, jacobian, kTermsOfSets);
-  fit.holds_sets = random == RandomPart::kPointsAndSets && fit.set_scatter.has_value() && fit.set_scatter->counts();
-  fit.covariance = fit.holds_sets ? calc_law_covariance(fit, *fit.set_scatter, jacobian, inverse)
-                                  : calc_law_covariance(fit.statistics.residual_sd_N / fit.force_0_N, inverse);
+  if (random == RandomPart::kPointsAndSets) fit.set_scatter = find_set_scatter(fit.points, jacobian);
+  fit.covariance = fit.includes_set_scatter()
+                       ? calc_law_covariance(fit.force_0_N, fit.points, *fit.set_scatter, jacobian, inverse)
+                       : calc_law_covariance(fit.statistics.residual_sd_N / fit.force_0_N, inverse);
   put_coefficients(found, fit);
   warn_of_j2452(jacobian, fit);
   return fit;

@@ -17,18 +17,17 @@ struct J2452Fit {
   std::vector<ParameterEstimate> coefficients;  // alpha, beta, a, b, c
   std::vector<FittedPoint> points;
   RegressionStatistics statistics;
-  std::optional<SetScatter> set_scatter;  // where there are sets enough to tell
-  bool holds_sets = false;                // whether the intervals hold it
+  std::optional<SetScatter> set_scatter;  // if sets may scatter, and are enough to tell
   std::vector<std::string> warnings;
 
-  /// Degrees of freedom of the intervals: those of the sets where these scatter, else those of the points.
-  int find_freedom() const { return holds_sets ? set_scatter->freedom : statistics.freedom; }
+  /// Whether standard deviations and intervals include the scatter from set to set.
+  bool includes_set_scatter() const { return set_scatter.has_value() && set_scatter->is_significant(); }
+  /// Degrees of freedom of the intervals: those of the sets if they include their scatter, else those of the points.
+  int find_freedom() const { return includes_set_scatter() ? set_scatter->find_whole_freedom() : statistics.freedom; }
   /// At one condition.
   ForceEstimate estimate_force(const ReferenceCondition& at) const;
   /// The mean over a drive.
   ForceEstimate estimate_mean(double pressure_Pa, double load_N, const SpeedMoments& moments) const;
-  /// Of one force that is measured anew: the law's and its own scatter.
-  double calc_prediction_sd_N(const ReferenceCondition& at) const;
 
   // The fit itself, in the scaling in which it is well conditioned: F = F0 (P/P0)^alpha (Z/Z0)^beta (q0 + q1 x + q2
   // x^2), x = (v - v0)/h; covariance of alpha, beta, q0, q1, q2.
@@ -49,9 +48,9 @@ enum class RandomPart { kPoints, kPointsAndSets };
 
 /// Nonlinear least squares of forces in N, all points with the same weight.
 ///
-/// Standard deviations follow from the residuals, intervals of 95 % from Student's distribution. Where sets of one load
-/// and pressure may scatter, and do (SetScatter::counts()), the covariance holds that, and the intervals have the
-/// degrees of freedom of the sets.
+/// Standard deviations follow from the residuals, intervals of 95 % from Student's distribution. If sets of one load
+/// and pressure may scatter, and do (SetScatter::is_significant()), the covariance includes that, and the intervals
+/// have the degrees of freedom of the sets.
 /// Equation  (J^T J)^-1 J^T V J (J^T J)^-1;  V = s^2 1, or in a set s^2 1 + t^2 F F^T
 /// Symbols   J Jacobian, F forces of the points of a set [N], s and t of SetScatter
 /// The intervals of a, b and c hold the uncertainty of the exponents: a is the force at 1 kPa, 1 N and standstill, far
@@ -66,11 +65,17 @@ J2452Fit fit_j2452(const std::vector<RollingPoint>& points, RandomPart random = 
 /// An exponent of load that no tire has is doubted by doubt_trends().
 ///
 /// Equation  F = P^alpha Z^beta (a + b v + c v^2) + e + f v^2;  t = F_e/u(F_e), F_e = e + f v^2 at the middle speed;
-///           doubted if P(t(n - 7) > t) < 0.0005, or P(t(k - 4) > t) of k sets that scatter beside e + f v^2 as well
+///           doubted if P(t(n - 7) > t) < 0.0005; with the degrees of freedom of the sets if these may scatter, and do
+///           beside e + f v^2 as well (chance of SetScatter below 0.01)
 /// Validity  three loads or more. A tire whose law bends over load, since a higher load warms it more, hides the loss:
 ///           such points show F_e below zero where nothing is wrong
 /// Assumed: the level of significance; F_e above a tenth of the smallest force; beta of 0.8 to 1.4 beside it
 /// Checked   tests/estimation/rolling_law_test.cpp
 std::optional<std::string> doubt_parasitic_loss(const J2452Fit& fit);
+
+/// A doubt where whole sets lie off the law by more than the points within sets scatter. If a set is far off, its load
+/// or its pressure may be wrong.
+/// Assumed: doubted if the chance is below 0.001; loads and pressures if the largest |m_s| is above 3 %, too
+std::optional<std::string> doubt_sets(const J2452Fit& fit);
 
 }  // namespace rollrig::estimation

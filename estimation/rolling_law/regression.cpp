@@ -243,23 +243,38 @@ std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>
 
 namespace {
 
-/// By point, the place of its set.
+/// By point, the place of its set: points belong to one set if a row of points leads from one to the other, each near
+/// to the next. The pressure of a tire may move from point to point.
 std::vector<std::size_t> sort_into_sets(const std::vector<FittedPoint>& points) {
-  constexpr double kSame = 0.02;  // Assumed
-  const auto is_near = [](double a, double b) { return std::abs(a - b) <= kSame * b; };
-  std::vector<const RollingPoint*> firsts;
-  std::vector<std::size_t> set_of_point;
-  for (const FittedPoint& at : points) {
-    const auto first = std::find_if(firsts.begin(), firsts.end(), [&](const RollingPoint* other) {
-      return is_near(at.point.load_N, other->load_N) && is_near(at.point.pressure_Pa, other->pressure_Pa);
-    });
-    set_of_point.push_back(static_cast<std::size_t>(first - firsts.begin()));
-    if (first == firsts.end()) firsts.push_back(&at.point);
+  constexpr double kNear = 0.02;  // Assumed
+  const auto is_near = [](double a, double b) { return std::abs(a - b) <= kNear * std::max(a, b); };
+  constexpr auto kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> set_of_point(points.size(), kNone);
+  std::size_t sets = 0;
+  for (std::size_t first = 0; first < points.size(); ++first) {
+    if (set_of_point[first] != kNone) continue;
+    std::vector<std::size_t> reached{first};
+    set_of_point[first] = sets;
+    while (!reached.empty()) {
+      const RollingPoint& from = points[reached.back()].point;
+      reached.pop_back();
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const RollingPoint& to = points[i].point;
+        if (set_of_point[i] != kNone || !is_near(from.load_N, to.load_N) ||
+            !is_near(from.pressure_Pa, to.pressure_Pa)) {
+          continue;
+        }
+        set_of_point[i] = sets;
+        reached.push_back(i);
+      }
+    }
+    ++sets;
   }
   return set_of_point;
 }
 
-/// Columns u_s of SetScatter.
+}  // namespace
+
 Eigen::MatrixXd make_set_columns(const std::vector<FittedPoint>& points, const std::vector<std::size_t>& set_of_point) {
   const std::size_t sets = 1 + *std::max_element(set_of_point.begin(), set_of_point.end());
   Eigen::MatrixXd columns =
@@ -270,63 +285,46 @@ Eigen::MatrixXd make_set_columns(const std::vector<FittedPoint>& points, const s
   return columns;
 }
 
-}  // namespace
-
-bool SetScatter::counts() const {
-  constexpr double kPooledFrom = 0.25;
-  constexpr int kLeastFreedom = 2;
-  return freedom >= kLeastFreedom && chance < kPooledFrom && relative_sd > 0.0;
+int SetScatter::find_whole_freedom() const {
+  constexpr double kRounding = 1e-6;
+  return static_cast<int>(std::floor(freedom + kRounding));
 }
 
-std::optional<SetScatter> find_set_scatter(const std::vector<FittedPoint>& points, const Eigen::MatrixXd& jacobian,
-                                           int terms_of_sets) {
+bool SetScatter::is_significant() const {
+  constexpr double kPooledFrom = 0.25;
+  constexpr int kLeastFreedom = 2;
+  return find_whole_freedom() >= kLeastFreedom && chance < kPooledFrom && relative_sd > 0.0;
+}
+
+std::optional<SetScatter> find_set_scatter(const std::vector<FittedPoint>& points, const Eigen::MatrixXd& jacobian) {
   SetScatter found;
   found.set_of_point = sort_into_sets(points);
-  const Eigen::MatrixXd of_sets = make_set_columns(points, found.set_of_point);
-  const auto sets = static_cast<int>(of_sets.cols());
-  const int terms_within = static_cast<int>(jacobian.cols()) - terms_of_sets;
-  found.freedom = sets - terms_of_sets;
-  found.freedom_within = static_cast<int>(points.size()) - sets - terms_within;
-  if (found.freedom < 1 || found.freedom_within < 1) return std::nullopt;
-  Eigen::VectorXd left_N(jacobian.rows());
-  for (Eigen::Index i = 0; i < left_N.size(); ++i) left_N(i) = points[static_cast<std::size_t>(i)].residual_N();
-  const Eigen::ArrayXd squares_N2 = of_sets.colwise().squaredNorm().transpose();
-  const Eigen::ArrayXd errors = (of_sets.transpose() * left_N).array() / squares_N2;
-  const double within_N2 = (left_N - of_sets * errors.matrix()).squaredNorm() / found.freedom_within;
+  const Eigen::MatrixXd columns = make_set_columns(points, found.set_of_point);
+  const Eigen::ArrayXd squares_N2 = columns.colwise().squaredNorm().transpose();
+  const Eigen::MatrixXd basis = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(jacobian).householderQ() *
+                                Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
+  const Eigen::MatrixXd in_law = basis.transpose() * columns;
+  const double of_law = (in_law.colwise().squaredNorm().transpose().array() / squares_N2).sum();
+  const auto sets = static_cast<double>(columns.cols());
+  found.freedom = sets - of_law;
+  found.freedom_within = static_cast<double>(points.size()) - sets - (static_cast<double>(jacobian.cols()) - of_law);
+  if (found.find_whole_freedom() < 1 || found.freedom_within < 1.0) return std::nullopt;
+  Eigen::VectorXd residuals_N(jacobian.rows());
+  for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
+    residuals_N(i) = points[static_cast<std::size_t>(i)].residual_N();
+  }
+  const Eigen::ArrayXd errors = (columns.transpose() * residuals_N).array() / squares_N2;
+  const double within_N2 = (residuals_N - columns * errors.matrix()).squaredNorm() / found.freedom_within;
   const double between_N2 = (errors.square() * squares_N2).sum();
   if (!(within_N2 > 0.0)) return std::nullopt;
-  const Eigen::MatrixXd own = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(jacobian).householderQ() *
-                              Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
-  const Eigen::MatrixXd projected = own.transpose() * of_sets;
-  const Eigen::MatrixXd kept_N2 = of_sets.transpose() * of_sets - projected.transpose() * projected;
-  const double of_scatter_N2 = (kept_N2.array().square().rowwise().sum() / squares_N2).sum();
+  const Eigen::MatrixXd left_N2 = columns.transpose() * columns - in_law.transpose() * in_law;
+  const double N2_per_variance = (left_N2.array().square().rowwise().sum() / squares_N2).sum();
   const boost::math::fisher_f distribution(found.freedom, found.freedom_within);
   found.set_errors.assign(errors.data(), errors.data() + errors.size());
   found.chance = boost::math::cdf(boost::math::complement(distribution, between_N2 / found.freedom / within_N2));
-  found.relative_sd = std::sqrt(std::max(0.0, between_N2 - found.freedom * within_N2) / of_scatter_N2);
+  found.relative_sd = std::sqrt(std::max(0.0, between_N2 - found.freedom * within_N2) / N2_per_variance);
   found.point_sd_N = std::sqrt(within_N2);
   return found;
-}
-
-std::optional<std::string> doubt_sets(const std::vector<FittedPoint>& points, const SetScatter& scatter) {
-  constexpr double kMisses = 0.03, kUnlikely = 0.001;
-  if (scatter.chance >= kUnlikely) return std::nullopt;
-  std::string text = fmt::format(
-      "points of one load and pressure lie off the law together, by a standard deviation of {:.1f} % (p = {:.2g}): ",
-      1e2 * scatter.relative_sd, scatter.chance);
-  text += scatter.counts()
-              ? "the intervals hold that. More sets would make them narrower, more points of a set hardly"
-              : "the intervals take all points as independent, and are too narrow; they need five sets to hold that";
-  const auto worst = std::max_element(scatter.set_errors.begin(), scatter.set_errors.end(),
-                                      [](double one, double other) { return std::abs(one) < std::abs(other); });
-  if (std::abs(*worst) <= kMisses) return text;
-  const auto set = static_cast<std::size_t>(worst - scatter.set_errors.begin());
-  const auto first = std::find(scatter.set_of_point.begin(), scatter.set_of_point.end(), set);
-  const RollingPoint& point = points[static_cast<std::size_t>(first - scatter.set_of_point.begin())].point;
-  return text + fmt::format(
-                    ". Those at {:.0f} N and {:.0f} kPa are off by {:+.0f} %: are loads and pressures of all sets "
-                    "right, and the pressures gauge?",
-                    point.load_N, point.pressure_Pa / 1e3, 1e2 * *worst);
 }
 
 Eigen::MatrixXd invert_normal(const Eigen::MatrixXd& jacobian, std::vector<double>& leverages) {

@@ -58,41 +58,41 @@ std::optional<std::string> doubt_largest_residual(const std::vector<FittedPoint>
                                                   const RegressionStatistics& statistics,
                                                   const Eigen::MatrixXd& jacobian);
 
-/// How far whole sets lie off a law. A set is the points of one load and pressure: its tire is warmed up, its pressure
-/// set and its air taken once for all of them.
-/// Equation  m_s = u_s^T e/|u_s|^2;  B = sum_s m_s^2 |u_s|^2,  s^2 = |e - sum_s m_s u_s|^2/(n - k - q);
-///           t^2 = max(0, (B - (k - p) s^2)/sum_s sum_r (u_s^T P u_r)^2/|u_s|^2);
-///           probability that sets of independent points scatter as much: P(F(k - p, n - k - q) > B/((k - p) s^2))
-/// Symbols   e residuals [N]; u_s forces of the law at the points of set s, 0 at others [N]; P = 1 - J (J^T J)^-1 J^T,
-///           J Jacobian; n points, k sets; p terms of the law that differ from set to set, q its others; t standard
-///           deviation of a set's forces [1], s that of a point within its set [N]
-/// Validity  points of one standard deviation; sets are told apart by 2 % of load or pressure
-/// Source    analysis of variance of a random effect by moments: E(B) = (k - p) s^2 + t^2 sum sum (...)
+/// How far whole sets lie off a law. A set is all points of one load and pressure. They share one warm-up, one setting
+/// of the pressure and one state of the air.
+/// Equation  m_s = u_s^T e/|u_s|^2;  c = sum_s |Q^T u_s|^2/|u_s|^2,  d = k - c,  d_w = n - k - (p - c);
+///           B = sum_s m_s^2 |u_s|^2,  s^2 = |e - sum_s m_s u_s|^2/d_w;
+///           t^2 = max(0, (B - d s^2)/sum_s sum_r (u_s^T P u_r)^2/|u_s|^2),  P = 1 - Q Q^T;
+///           probability that sets of independent points scatter as much: P(F(d, d_w) > B/(d s^2))
+/// Symbols   e residuals [N]; u_s forces of the law at the points of set s, 0 at others [N]; Q orthonormal basis of the
+///           Jacobian; n points, p coefficients, k sets; t standard deviation of a set's forces [1], s that of a point
+///           within its set [N]
+/// Validity  points of one standard deviation; where sets have different speeds, the F distribution is an approximation.
+///           Points within 2 % of load and pressure belong to one set, and so do points that such points connect
+/// Source    analysis of variance of a random effect by moments: E(B) = d s^2 + t^2 sum_s sum_r (...)
 /// Checked   tests/estimation/rolling_law_test.cpp, rolling_law_coverage_test.cpp
 struct SetScatter {
   std::vector<std::size_t> set_of_point;  // by point, from 0
   std::vector<double> set_errors;         // m_s [1]
-  int freedom = 0;                        // k - p
-  int freedom_within = 0;                 // n - k - q
+  double freedom = 0.0;                   // d
+  double freedom_within = 0.0;            // d_w
   double chance = 1.0;                    // that sets of independent points scatter as much
   double relative_sd = 0.0;               // t
   double point_sd_N = 0.0;                // s
 
   std::size_t set_count() const { return set_errors.size(); }
-  /// Whether intervals have to hold it: unless the points speak for none, and two degrees of freedom at least tell it.
-  /// Assumed: a chance below 0.25, the usual level from which a variance is not pooled
-  bool counts() const;
+  /// Whole degrees of freedom of intervals that include it.
+  int find_whole_freedom() const;
+  /// Whether intervals must include it: the F test gives less than 0.25, and there are two degrees of freedom or more.
+  /// Assumed: both; a higher level would take more sets without scatter for sets with scatter
+  bool is_significant() const;
 };
 
-/// Of a law that has `terms_of_sets` terms that differ from set to set, as level and exponents do. Absent where the
-/// sets or the points within them are too few, or the points do not scatter.
-std::optional<SetScatter> find_set_scatter(const std::vector<FittedPoint>& points, const Eigen::MatrixXd& jacobian,
-                                           int terms_of_sets);
+/// Absent if there are too few sets, or too few points within them, or if the points do not scatter.
+std::optional<SetScatter> find_set_scatter(const std::vector<FittedPoint>& points, const Eigen::MatrixXd& jacobian);
 
-/// A doubt where whole sets lie off the law by more than the points within sets scatter. If a set is far off, its load
-/// or its pressure may be wrong.
-/// Assumed: doubted if the chance is below 0.001; loads and pressures if the largest |m_s| is above 3 %, too
-std::optional<std::string> doubt_sets(const std::vector<FittedPoint>& points, const SetScatter& scatter);
+/// Columns u_s of SetScatter: the law's forces at the points of each set.
+Eigen::MatrixXd make_set_columns(const std::vector<FittedPoint>& points, const std::vector<std::size_t>& set_of_point);
 
 /// (J^T J)^-1 by a QR decomposition of J with columns of unit length; `leverages` gets the diagonal of the hat matrix.
 /// Throws RunFailure where the points do not decide the coefficients.

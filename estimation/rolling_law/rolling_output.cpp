@@ -118,9 +118,9 @@ Json make_j2452_json(const RollingTest& test, const J2452Fit& fit, const std::op
   json["units"] = {{"F", "N"}, {"P", "kPa"}, {"Z", "N"}, {"v", "km/h"}};
   json["coefficients"] = law_coefficients_json(fit.coefficients);
   json["statistics"] = statistics_json(fit.points, fit.statistics);
-  if (fit.holds_sets) {
+  if (fit.includes_set_scatter()) {
     json["statistics"]["set_scatter"] = {{"sets", fit.set_scatter->set_count()},
-                                         {"degrees_of_freedom", fit.set_scatter->freedom},
+                                         {"degrees_of_freedom", fit.find_freedom()},
                                          {"sd_percent", 100.0 * fit.set_scatter->relative_sd},
                                          {"p", fit.set_scatter->chance}};
   }

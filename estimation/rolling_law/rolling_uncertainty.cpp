@@ -27,8 +27,8 @@ enum : std::size_t { kGain, kParasitic, kLoad, kPressure, kSpeed };
 /// How the forces of the points scatter, each by itself and, where there are any, whole sets.
 struct PointScatter {
   double sd_N = 0.0;
-  int freedom = 0;
-  std::optional<SetScatter> of_sets;
+  double freedom = 0.0;
+  std::optional<SetScatter> set_scatter;
 };
 
 struct RollingInputs {
@@ -63,9 +63,10 @@ RollingInputs make_rolling_inputs(const std::vector<FittedPoint>& points, const 
   };
   made.first_scatter = add(make_scatter_inputs(points.size(), scatter.freedom, "scatter of the points",
                                                "standard deviation of the residuals"));
-  if (scatter.of_sets.has_value()) {
-    made.first_set_scatter = add(make_scatter_inputs(scatter.of_sets->set_count(), scatter.of_sets->freedom,
-                                                     "scatter from set to set", "how far sets lie off the law"));
+  if (scatter.set_scatter.has_value()) {
+    made.first_set_scatter =
+        add(make_scatter_inputs(scatter.set_scatter->set_count(), scatter.set_scatter->find_whole_freedom(),
+                                "scatter from set to set", "how far sets lie off the law"));
   }
   return made;
 }
@@ -74,14 +75,16 @@ RollingInputs make_rolling_inputs(const std::vector<FittedPoint>& points, const 
 std::vector<RollingPoint> apply_errors(const std::vector<FittedPoint>& points, const RollingInputs& made,
                                        const std::vector<double>& x) {
   const std::vector<double> scatter = take_scatter(x, made.first_scatter, points.size());
-  const std::optional<SetScatter>& of_sets = made.scatter.of_sets;
-  const std::vector<double> set_scatter =
-      of_sets.has_value() ? take_scatter(x, made.first_set_scatter, of_sets->set_count()) : std::vector<double>{};
+  const std::optional<SetScatter>& set_scatter = made.scatter.set_scatter;
+  const std::vector<double> set_errors = set_scatter.has_value()
+                                             ? take_scatter(x, made.first_set_scatter, set_scatter->set_count())
+                                             : std::vector<double>{};
   const auto error_of = [&](std::size_t i) { return x[i] - made.inputs[i].value; };
   std::vector<RollingPoint> measured;
   for (std::size_t i = 0; i < points.size(); ++i) {
     RollingPoint point = points[i].point;
-    const double of_set = of_sets.has_value() ? of_sets->relative_sd * set_scatter[of_sets->set_of_point[i]] : 0.0;
+    const double of_set =
+        set_scatter.has_value() ? set_scatter->relative_sd * set_errors[set_scatter->set_of_point[i]] : 0.0;
     const double force_N = points[i].fitted_N * (1.0 + of_set) + made.scatter.sd_N * scatter[i];
     point.force_N = x[rolling_input::kGain] * force_N + x[rolling_input::kParasitic];
     point.load_N *= x[rolling_input::kLoad];
@@ -111,7 +114,8 @@ std::vector<std::string> list_rolling_left_out(const RollingTest& test) {
 }
 
 PointScatter find_point_scatter(const J2452Fit& fit) {
-  if (!fit.holds_sets) return {fit.statistics.residual_sd_N, fit.statistics.freedom, {}};
+  if (!fit.includes_set_scatter())
+    return {fit.statistics.residual_sd_N, static_cast<double>(fit.statistics.freedom), {}};
   return {fit.set_scatter->point_sd_N, fit.set_scatter->freedom_within, fit.set_scatter};
 }
 
@@ -151,8 +155,8 @@ MeasurementModel make_multipoint_model(const RollingTest& test, const Multipoint
   MeasurementModel model;
   const std::string at = reference.has_value() ? "reference" : "mean load, pressure";
   model.measurands = {{"F at " + at, "rolling_resistance_N"}, {"RRc", "rrc_N_per_kN"}};
-  const RollingInputs made =
-      make_rolling_inputs(fit.points, {fit.statistics.residual_sd_N, fit.statistics.freedom, {}}, false);
+  const RollingInputs made = make_rolling_inputs(
+      fit.points, {fit.statistics.residual_sd_N, static_cast<double>(fit.statistics.freedom), {}}, false);
   model.inputs = made.inputs;
   model.left_out = list_rolling_left_out(test);
   const double load_N = reference.has_value() ? reference->condition.load_N : fit.load_0_N;

@@ -30,13 +30,16 @@ std::vector<estimation::RollingPoint> simulate_points(std::uint64_t seed, double
   return points;
 }
 
-/// Seven speeds at seven loads and pressures, with normal noise of each point and of each set of one load and pressure.
-std::vector<estimation::RollingPoint> simulate_sets(std::uint64_t seed, double noise_N, double set_sd) {
+/// Seven speeds at up to seven loads and pressures, with normal noise of each point and of each set of one load and
+/// pressure.
+std::vector<estimation::RollingPoint> simulate_sets(std::uint64_t seed, double noise_N, double set_sd,
+                                                    std::size_t sets) {
   RandomStream noise(seed, "sets");
   std::vector<estimation::RollingPoint> points;
   for (const auto& [load_N, pressure_kPa] :
        {std::pair(6000.0, 180.0), std::pair(4500.0, 210.0), std::pair(3000.0, 260.0), std::pair(2000.0, 290.0),
         std::pair(3000.0, 180.0), std::pair(4500.0, 290.0), std::pair(6000.0, 260.0)}) {
+    if (points.size() == 7 * sets) break;
     const double factor = 1.0 + set_sd * noise.normal();
     for (const double km_h : {115.0, 95.0, 80.0, 65.0, 50.0, 35.0, 15.0}) {
       estimation::RollingPoint point{km_h / 3.6, load_N, 1e3 * pressure_kPa, 0.0};
@@ -110,24 +113,28 @@ TEST_CASE("95 % intervals of the five coefficients of SAE J2452 cover at their r
 
 TEST_CASE("and they do where whole sets of one load and pressure scatter", "[slow]") {
   constexpr std::size_t kSeeds = 2000;
-  for (const double set_sd : {0.0, 0.002, 0.005, 0.01}) {
-    for (const auto random : {estimation::RandomPart::kPoints, estimation::RandomPart::kPointsAndSets}) {
-      const std::vector<Covered> covered = find_covered(kSeeds, [set_sd, random](std::uint64_t seed) {
-        return estimation::fit_j2452(simulate_sets(seed, 0.1, set_sd), random);
-      });
-      const bool holds_sets = random == estimation::RandomPart::kPointsAndSets;
-      std::cout << fmt::format("sets scatter by {} %, {}: alpha, beta, a, b, c covered", 100.0 * set_sd,
-                               holds_sets ? "held" : "not held");
-      const std::array<double, 5> shares = calc_shares(covered, 0, kSeeds);
-      for (std::size_t k = 0; k < shares.size(); ++k) {
-        std::cout << fmt::format(" {:.2f}", 100.0 * shares[k]);
-        if (!holds_sets) continue;
-        // b and c, the shape over speed, are told by the points within sets, whose many degrees of freedom their
-        // intervals do not use: they are wide.
-        CHECK(shares[k] >= 0.92);
-        CHECK(shares[k] <= (k < 3 ? 0.98 : 0.995));
+  // Few sets estimate their scatter poorly: seven give 93 % at 0.2 and 0.5 %, five less.
+  for (const auto& [sets, least] : {std::pair(std::size_t{7}, 0.92), std::pair(std::size_t{5}, 0.80)}) {
+    for (const double set_sd : {0.0, 0.002, 0.005, 0.01}) {
+      for (const auto random : {estimation::RandomPart::kPoints, estimation::RandomPart::kPointsAndSets}) {
+        const std::vector<Covered> covered =
+            find_covered(kSeeds, [set_sd = set_sd, random, sets = sets](std::uint64_t seed) {
+              return estimation::fit_j2452(simulate_sets(seed, 0.1, set_sd, sets), random);
+            });
+        const bool includes_sets = random == estimation::RandomPart::kPointsAndSets;
+        std::cout << fmt::format("{} sets scatter by {} %, {}: alpha, beta, a, b, c covered", sets, 100.0 * set_sd,
+                                 includes_sets ? "included" : "not included");
+        const std::array<double, 5> shares = calc_shares(covered, 0, kSeeds);
+        for (std::size_t k = 0; k < shares.size(); ++k) {
+          std::cout << fmt::format(" {:.2f}", 100.0 * shares[k]);
+          if (!includes_sets) continue;
+          // b and c, the shape over speed, are determined by the points within sets, whose many degrees of freedom
+          // their intervals do not use: they are wide.
+          CHECK(shares[k] >= least);
+          CHECK(shares[k] <= (k < 3 ? 0.98 : 0.995));
+        }
+        std::cout << " %\n";
       }
-      std::cout << " %\n";
     }
   }
 }
