@@ -175,7 +175,7 @@ void copy_recording(benchmark::State& state) {
     std::memcpy(to.data(), from.data(), values * sizeof(double));
     benchmark::ClobberMemory();
   }
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * values * sizeof(double)));
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(values * sizeof(double)));
 }
 
 BENCHMARK(rates_by_hand);
