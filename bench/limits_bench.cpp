@@ -133,7 +133,7 @@ void warm_up_by_hand(benchmark::State& state) {
     for (int i = 0; i < 360; ++i) step(c, kStep_s, kSpeed_m_s, kSpeed_m_s, t);
     benchmark::DoNotOptimize(loss_N = calc_loss_N(c, t, kSpeed_m_s));
   }
-  constexpr double kSame = 0.01;  // beside the run, the run-up at skim load is left out
+  constexpr double kSame = 0.01;  // the run-up at skim load is left out by hand
   const double of_run_N = read_warm_loss_N(scenarios::run_scenario(spec, {}).recording);
   if (std::abs(loss_N / of_run_N - 1.0) > kSame) state.SkipWithError("the equations are not those of the program");
   state.counters["loss_N"] = loss_N;

@@ -12,7 +12,7 @@ bool is_held(const Segment& segment) {
                      [](const Ramp& input) { return input.slope_per_s == 0.0; });
 }
 
-/// At the start.
+/// Whether two segments start with the same inputs.
 bool has_same_inputs(const Segment& a, const Segment& b) {
   return std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(),
                     [](const Ramp& x, const Ramp& y) { return x.start == y.start; });

@@ -7,9 +7,9 @@
 
 namespace rollrig::sim {
 
-/// How steps grow after a change of an input: `first_s` at most for N = `steps_before_doubling` such steps, then twice as
-/// long, and so on, up to `most_s`. Steps that have grown are between 1/N and 2/N of the time since the change: what has
-/// not settled by then changes about as slowly as that time is long. Assumed: N = 80.
+/// How steps grow after a change of an input: `first_s` at most for N = `steps_before_doubling` such steps, then twice
+/// as long, and so on, up to `most_s`. Steps that have grown are between 1/N and 2/N of the time since the change: what
+/// has not settled by then changes about as slowly as that time is long. Assumed: N = 80.
 struct StepGrowth {
   double first_s = 0.0;
   double most_s = 0.0;
@@ -23,8 +23,9 @@ struct StepGrowth {
 void append_held_parts(const Segment& segment, double since_change_s, const StepGrowth& growth,
                        std::vector<Segment>& parts);
 
-/// The same program with growing steps wherever all inputs are constant. The start of a phase counts as a change. Phases
-/// that may end early keep their steps: there the state changes although no input does, such as the speed of a coastdown.
+/// The same program with growing steps wherever all inputs are constant. The start of a phase counts as a change.
+/// Phases that may end early keep their steps: there the state changes although no input does, such as the speed of a
+/// coastdown.
 /// Checked   tests/sim/held_steps_test.cpp
 Program lengthen_held_steps(Program program, double most_s, double steps_before_doubling = 80.0);
 

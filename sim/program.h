@@ -18,8 +18,8 @@ struct Ramp {
   double at(double elapsed_s) const { return start + slope_per_s * elapsed_s; }
 };
 
-/// The inputs of a system. A program of a drive cycle has thousands of segments, whose inputs need no memory of their own
-/// this way. Assumed: 8, more than the inputs of any rig.
+/// The inputs of a system. A program of a drive cycle has thousands of segments, whose inputs need no memory of their
+/// own this way. Assumed: 8, more than the inputs of any rig.
 using Ramps = boost::container::small_vector<Ramp, 8>;
 
 /// A stretch in which every input is one straight line. Two segments meet at a knot. A system is told which segment it

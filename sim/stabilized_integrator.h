@@ -54,10 +54,10 @@ struct ChebyshevRule {
 };
 
 /// Steps of up to `longest_classical_s` by the classical rule (fixed_grid_integrator.h); longer ones by the rule of
-/// Runge, Kutta and Chebyshev with as many stages as are stable for whatever is stable in that time: of 10 s, 6 in 60
-/// s, where the classical rule takes 24 evaluations. After a step of up to 2 s, interpolation uses the rates of the
-/// last stage instead of those at the end. This saves an evaluation in each segment of one step, such as a row of a
-/// drive cycle.
+/// Runge, Kutta and Chebyshev, with stages enough that what is stable in that time stays stable. If it is 10 s, a step
+/// of 60 s has 6 stages, where the classical rule takes 24 evaluations. After a step of up to 2 s, interpolation uses
+/// the rates of the last stage instead of those at the end. This saves an evaluation in each segment of one step, such
+/// as a row of a drive cycle.
 ///
 /// Validity  as ChebyshevRule; longer steps where what changes within less than a few of them has died away
 /// Accuracy  of the classical rule order 4, at the ends of steps and between, and order 3 in the rate of an integral
