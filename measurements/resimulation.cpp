@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -150,23 +151,16 @@ void limit_steps(sim::Phase& phase) {
   constexpr double kHeldShare = 1e-9;
   const std::size_t speed = rigs::index_of(DrumInput::kSpeed);
   const std::size_t load = rigs::index_of(DrumInput::kLoad);
-  phase.max_step_s = kHeldSteps.most_s;
-  std::vector<sim::Segment> parts;
-  double since_change_s = 0.0;
-  for (const sim::Segment& segment : phase.segments) {
+  const auto find_step_s = [speed](const sim::Segment& segment) -> std::optional<double> {
     const double slope = std::abs(segment.inputs[speed].slope_per_s);
-    const double load_N = segment.inputs[load].start;
-    const double before_N = parts.empty() ? 0.0 : parts.back().inputs[load].start;
-    if (slope > kHeld_m_s2 || std::abs(load_N - before_N) > kHeldShare * load_N) since_change_s = 0.0;
-    if (slope > kHeld_m_s2) {
-      parts.push_back(segment);
-      parts.back().max_step_s = std::min(kHeldSteps.first_s, kMostChange_m_s / slope);
-      continue;
-    }
-    sim::append_held_parts(segment, since_change_s, kHeldSteps, parts);
-    since_change_s += segment.duration_s;
-  }
-  phase.segments = std::move(parts);
+    if (slope <= kHeld_m_s2) return std::nullopt;
+    return kMostChange_m_s / slope;
+  };
+  const auto continues = [load](const sim::Segment& before, const sim::Segment& after) {
+    const double load_N = after.inputs[load].start;
+    return std::abs(load_N - before.inputs[load].start) <= kHeldShare * load_N;
+  };
+  sim::lengthen_held_steps(kHeldSteps, {find_step_s, continues}, phase);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #pragma once
 /// Steps of a fixed grid that grow while nothing changes.
 
-#include <vector>
+#include <functional>
+#include <optional>
 
 #include "sim/program.h"
 
@@ -18,14 +19,18 @@ struct StepGrowth {
   double find_longest_s(double since_change_s) const;
 };
 
-/// Appends the parts of a segment in which no input changes; in each, steps are equally long. The last change was
-/// `since_change_s` before the segment.
-void append_held_parts(const Segment& segment, double since_change_s, const StepGrowth& growth,
-                       std::vector<Segment>& parts);
+/// What counts as a change of the inputs.
+struct InputChanges {
+  std::function<std::optional<double>(const Segment&)> find_step_s;  // if inputs change within it: its longest step
+  std::function<bool(const Segment& before, const Segment& after)> continues;  // whether `after` starts without a jump
+};
 
-/// The same program with growing steps wherever all inputs are constant. The start of a phase counts as a change.
-/// Phases that may end early keep their steps: there the state changes although no input does, such as the speed of a
-/// coastdown.
+/// Cuts the segments of a phase into parts with equally long steps, which grow while inputs do not change. The start of
+/// the phase counts as a change.
+void lengthen_held_steps(const StepGrowth& growth, const InputChanges& changes, Phase& phase);
+
+/// The same program with growing steps wherever all inputs are constant. Phases that may end early keep their steps:
+/// there the state changes although no input does, such as the speed of a coastdown.
 /// Checked   tests/sim/held_steps_test.cpp
 Program lengthen_held_steps(Program program, double most_s, double steps_before_doubling = 80.0);
 
