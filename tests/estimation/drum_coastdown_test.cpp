@@ -32,11 +32,11 @@ CoastStudy make_quiet() {
 
 bool holds(const Interval& interval, double truth) { return interval.lower <= truth && truth <= interval.upper; }
 
-/// Coverage of every interval over 200 seeds; `leave_out_m_s` as a person would give it.
+/// Coverage of every interval; `leave_out_m_s` as a person would give it.
 void check_drum_coverage(const CoastStudy& study, const std::vector<double>& leave_out_m_s) {
-  constexpr int kSeeds = 200;
-  std::vector<DrumCoastdownFit> fits(kSeeds);
-  parallel_for(kSeeds, 0, [&](std::size_t i) {
+  const int seeds = tests::count_seeds(200);
+  std::vector<DrumCoastdownFit> fits(static_cast<std::size_t>(seeds));
+  parallel_for(fits.size(), 0, [&](std::size_t i) {
     estimation::CoastSet set = tests::make_coasts(study, i + 1);
     set.leave_out_m_s = leave_out_m_s;
     fits[i] = fit_drum_coastdown(set);
@@ -62,9 +62,9 @@ void check_drum_coverage(const CoastStudy& study, const std::vector<double>& lea
     }
   }
   for (const auto& [what, count] : covered) {
-    INFO(what << " covered " << count << " of " << kSeeds);
-    std::cout << fmt::format("{:<32} covered {} of {}\n", what, count, kSeeds);
-    CHECK_FALSE(tests::is_rejected(count, kSeeds, 0.95, 0.01));
+    INFO(what << " covered " << count << " of " << seeds);
+    std::cout << fmt::format("{:<32} covered {} of {}\n", what, count, seeds);
+    CHECK_FALSE(tests::is_rejected(count, seeds, 0.95, 0.01));
   }
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 int count_sets() {
   const char* wanted = std::getenv("ROLLRIG_FIT_SETS");
-  return wanted != nullptr ? std::stoi(wanted) : 100;
+  return wanted != nullptr ? std::stoi(wanted) : tests::count_seeds(100);
 }
 
 /// Sets whose noise and guesses differ. A fit that fails has no estimates.

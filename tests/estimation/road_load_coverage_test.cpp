@@ -1,4 +1,4 @@
-// 95 % intervals of `fit road-load` on 500 simulated sets of coastdowns: how often do they hold the truth?
+// 95 % intervals of `fit road-load` on simulated sets of coastdowns: how often do they hold the truth?
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
@@ -13,11 +13,11 @@ using namespace rollrig;
 namespace {
 
 void check_road_load_coverage(const char* name, const tests::CoastdownStudy& study) {
-  constexpr int kSeeds = 500;
+  const int seeds = tests::count_seeds(500);
   estimation::RoadLoadFitOptions options;
   options.mass_kg = study.mass_kg;
-  std::vector<estimation::RoadLoadFit> fits(kSeeds);
-  parallel_for(kSeeds, 0, [&](std::size_t i) {
+  std::vector<estimation::RoadLoadFit> fits(static_cast<std::size_t>(seeds));
+  parallel_for(fits.size(), 0, [&](std::size_t i) {
     fits[i] = estimation::fit_road_load(tests::simulate_coastdowns(study, i + 1), options);
   });
   const double truth[3] = {study.load.A_N, study.load.B_N_s_per_m, study.load.C_N_s2_per_m2};
@@ -27,13 +27,13 @@ void check_road_load_coverage(const char* name, const tests::CoastdownStudy& stu
     for (const estimation::RoadLoadFit& fit : fits) {
       const auto [lower, upper] = fit.interval_95(p);
       if (lower <= truth[p] && truth[p] <= upper) ++covered;
-      width += (upper - lower) / kSeeds;
+      width += (upper - lower) / seeds;
     }
     std::cout << fmt::format("{:<28} {}  interval {:>5.2f} % wide  covered {} of {}\n", name, "ABC"[p],
-                             100.0 * width / truth[p], covered, kSeeds);
+                             100.0 * width / truth[p], covered, seeds);
     INFO(name << " "
-              << "ABC"[p] << " covered " << covered << " of " << kSeeds);
-    CHECK_FALSE(tests::is_rejected(covered, kSeeds, 0.95, 0.01));
+              << "ABC"[p] << " covered " << covered << " of " << seeds);
+    CHECK_FALSE(tests::is_rejected(covered, seeds, 0.95, 0.01));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "estimation/road_load/road_load_procedure.h"
+#include "tests/support/fit_study.h"
 #include "tests/support/procedure_study.h"
 
 using namespace rollrig;
@@ -61,7 +62,7 @@ ProcedureStudy make_windy_study() {
 
 constexpr int kProcedureSeeds = 300;
 
-/// 95 % of 300, within three standard deviations of a binomial.
+/// 95 % of the runs, within three standard deviations of a binomial.
 void require_procedure_coverage(const ProcedureCoverage& coverage) {
   for (const int within : coverage.within) {
     CHECK(within >= 0.95 * coverage.runs - 3.0 * 0.218 * std::sqrt(coverage.runs));
@@ -125,5 +126,5 @@ TEST_CASE("procedures: 95 % intervals of SAE J2263 contain the road load", "[slo
   study.crosswind_m_s = 2.0;
   study.yaw_drag_per_rad2 = 3.0;
   std::printf("SAE J2263, six pairs, gusts of 0.8 m/s:\n");
-  require_procedure_coverage(count_procedure_coverage(study, options, kProcedureSeeds));
+  require_procedure_coverage(count_procedure_coverage(study, options, tests::count_seeds(kProcedureSeeds)));
 }

@@ -1,5 +1,8 @@
 #include "tests/support/fit_study.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include <boost/math/distributions/binomial.hpp>
 
 #include "estimation/parameters.h"
@@ -88,6 +91,8 @@ double& find_own(models::OwnParameters<double>& own, const std::string& key) {
 void put_own(models::TireFile& tire, const std::string& key, double value) {
   find_own(tire.values.own, key) = unit_of_key(key).to_si(value);
 }
+
+int count_seeds(int all) { return std::getenv("ROLLRIG_WHOLE_STUDIES") != nullptr ? all : std::max(1, all / 4); }
 
 bool is_rejected(int successes, int trials, double p, double level) {
   const boost::math::binomial_distribution<double> distribution(trials, p);

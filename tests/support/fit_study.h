@@ -39,6 +39,10 @@ double& find_own(models::OwnParameters<double>& own, const std::string& key);
 /// Puts a number of the tire's own law, in the unit of the key.
 void put_own(models::TireFile& tire, const std::string& key, double value);
 
+/// Seeds of a study of intervals: `all` of them where ROLLRIG_WHOLE_STUDIES is set, as the weekly tests do, a quarter of
+/// them else.
+int count_seeds(int all);
+
 /// Whether `successes` of `trials` is rejected by a two-sided binomial test of probability `p` at `level`.
 bool is_rejected(int successes, int trials, double p, double level);
 

@@ -55,7 +55,7 @@ TEST_CASE("a shift from the speed that both logs have is held by its interval", 
 }
 
 TEST_CASE("a shift from the tire's response alone is held by its interval", "[slow]") {
-  const int seeds = 100;
+  const int seeds = tests::count_seeds(100);
   const Study study = study_clocks({}, seeds, 0.0);
   WARN("response: shift held in " << study.held << ", rate in " << study.rates_held << " of " << seeds << ", mean sd "
                                   << study.mean_sd_s << " s, worst error " << study.worst_s);
