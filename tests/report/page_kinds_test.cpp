@@ -339,13 +339,12 @@ TEST_CASE("every kind of page of a diagnosis and of a plan", "[weekly]") {
                        {"plan", "plan --rig drum --hours 8" + only}});
 }
 
-TEST_CASE("pages of a run, a sweep, a comparison, a fit and a diagnosis", "[slow]") {  // the others: weekly
+TEST_CASE("pages of a run, sweeps, a comparison and a fit", "[slow]") {  // the others: weekly, and browser_test.cpp
   const TemporaryFolder folder;
-  write_effect_set(folder, "set", "--set effects.bearing_warmup.fall_per_K=0.03");
-  check_kinds(folder, {{"coastdown", "run coastdown --set pairs=2" + kQuick},
-                       {"grid", "sweep iso_28580 --vary pressure_kPa=230:270:20 --vary ambient_degC=20:30:5" + kQuick},
-                       {"numbers", "compare a40 a50"},
-                       {"single", "sweep iso_28580 --vary pressure_kPa=250" + kQuick, "", 0, false},
-                       {"j2452", "fit j2452 " + kExamples + "j2452_points.csv --maximum-load 6570 --base-pressure 240"},
-                       {"diagnosis", "diagnose set --only bearing_warmup,torque_gain", "--charts 3"}});
+  check_kinds(folder,
+              {{"coastdown", "run coastdown --set pairs=2" + kQuick},
+               {"grid", "sweep iso_28580 --vary pressure_kPa=230:270:20 --vary ambient_degC=20:30:5" + kQuick},
+               {"numbers", "compare a40 a50"},
+               {"single", "sweep iso_28580 --vary pressure_kPa=250" + kQuick, "", 0, false},
+               {"j2452", "fit j2452 " + kExamples + "j2452_points.csv --maximum-load 6570 --base-pressure 240"}});
 }
