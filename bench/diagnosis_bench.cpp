@@ -1,5 +1,5 @@
-/// CPU time of the diagnosis of a measurement set, with its reading, on one thread and on all: sets of the independent
-/// generator.
+/// Wall time and CPU time of the diagnosis of a measurement set on all cores, with its reading. The sets are of the
+/// independent generator.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
