@@ -149,16 +149,16 @@ void limit_steps(sim::Phase& phase) {
   constexpr double kMostChange_m_s = 0.75;
   constexpr double kHeld_m_s2 = 1e-9;  // as much as rounding makes of a mean
   constexpr double kHeldShare = 1e-9;
-  const std::size_t speed = rigs::index_of(DrumInput::kSpeed);
-  const std::size_t load = rigs::index_of(DrumInput::kLoad);
-  const auto find_step_s = [speed](const sim::Segment& segment) -> std::optional<double> {
-    const double slope = std::abs(segment.inputs[speed].slope_per_s);
+  constexpr std::size_t kSpeed = rigs::index_of(DrumInput::kSpeed);
+  constexpr std::size_t kLoad = rigs::index_of(DrumInput::kLoad);
+  const auto find_step_s = [](const sim::Segment& segment) -> std::optional<double> {
+    const double slope = std::abs(segment.inputs[kSpeed].slope_per_s);
     if (slope <= kHeld_m_s2) return std::nullopt;
     return kMostChange_m_s / slope;
   };
-  const auto continues = [load](const sim::Segment& before, const sim::Segment& after) {
-    const double load_N = after.inputs[load].start;
-    return std::abs(load_N - before.inputs[load].start) <= kHeldShare * load_N;
+  const auto continues = [](const sim::Segment& before, const sim::Segment& after) {
+    const double load_N = after.inputs[kLoad].start;
+    return std::abs(load_N - before.inputs[kLoad].start) <= kHeldShare * load_N;
   };
   sim::lengthen_held_steps(kHeldSteps, {find_step_s, continues}, phase);
 }
