@@ -142,8 +142,8 @@ sim::Recording<S> run_on(Machine&& machine, const sim::Program& program) {
 /// While speed and load are constant. Assumed: from 10 s, two fifths of the gas's time constant, to 80 s.
 constexpr sim::StepGrowth kHeldSteps{10.0, 80.0};
 
-/// Steps for the integrator. Assumed: while the speed changes, at most 10 s and the time in which it changes by 0.75
-/// m/s, less than a quarter of the 12 km/h below which an error of the recorded speed matters most
+/// Steps for the integrator. Assumed: while the speed changes, at most 10 s, and at most the time in which it changes
+/// by 0.75 m/s, less than a quarter of the 12 km/h below which an error of the recorded speed matters most
 /// (models/effects/speed_record.cpp).
 void limit_steps(sim::Phase& phase) {
   constexpr double kMostChange_m_s = 0.75;

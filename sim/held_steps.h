@@ -19,18 +19,22 @@ struct StepGrowth {
   double find_longest_s(double since_change_s) const;
 };
 
-/// What counts as a change of the inputs.
+/// Decides what counts as a change of the inputs.
 struct InputChanges {
-  std::function<std::optional<double>(const Segment&)> find_step_s;  // if inputs change within it: its longest step
-  std::function<bool(const Segment& before, const Segment& after)> continues;  // whether `after` starts without a jump
+  /// The longest step of a segment whose steps must not grow; `first_s` limits it as well. Nothing if they may grow.
+  std::function<std::optional<double>(const Segment&)> find_step_s;
+  /// Whether `after` starts with the inputs of `before`, which are constant.
+  std::function<bool(const Segment& before, const Segment& after)> continues;
 };
 
 /// Cuts the segments of a phase into parts with equally long steps, which grow while inputs do not change. The start of
 /// the phase counts as a change.
+/// Checked   tests/sim/held_steps_test.cpp, tests/measurements/resimulation_test.cpp
 void lengthen_held_steps(const StepGrowth& growth, const InputChanges& changes, Phase& phase);
 
-/// The same program with growing steps wherever all inputs are constant. Phases that may end early keep their steps:
-/// there the state changes although no input does, such as the speed of a coastdown.
+/// The same program with growing steps wherever all inputs are constant. The start of a phase counts as a change.
+/// Phases that may end early keep their steps: there the state changes although no input does, such as the speed of a
+/// coastdown.
 /// Checked   tests/sim/held_steps_test.cpp
 Program lengthen_held_steps(Program program, double most_s, double steps_before_doubling = 80.0);
 
