@@ -1,5 +1,5 @@
-/// Wall time and CPU time of the diagnosis of a measurement set on all cores, with its reading. The sets are of the
-/// independent generator.
+/// Wall time and CPU time of a diagnosis on all cores, including the reading of the measurement set. The independent
+/// generator makes the sets.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace rollrig;
 
-/// Writes a set with one effect into a folder of its own, which the destructor removes.
+/// Writes a set with one effect into a temporary folder. The destructor removes the folder.
 class SetFolder {
  public:
   SetFolder(const char* machine, int runs, const char* effect)
