@@ -188,7 +188,7 @@ TEST_CASE("each effect that a dynamometer shows is named at a middling size", "[
   CHECK(shown >= 12);
 }
 
-TEST_CASE("the cause in four dynamometer runs of one to two hours is named among all effects", "[slow]") {
+TEST_CASE("in four dynamometer runs of one to two hours the cause is named among all effects", "[slow]") {
   const auto set = tests::add_noise(
       make_dyno_set({tests::make_effect_at("driveline_warming", 0.7)}, 4, models::Baseline::kCombined, 90.0), 4);
   double hours = 0.0;

@@ -1,7 +1,7 @@
 // 95 % intervals of `fit tire` on sets with noise, whose tire files are guesses: how often do they hold the truth?
-// ROLLRIG_FIT_SETS sets the number of sets, 100 unless said. With 300 or more, the share of all intervals that hold the
-// truth must lie in 93 to 97 %, as the tables of docs/fit_tire.md say. The cases whose files have uncertainties of
-// their own are a study that runs by name alone.
+// ROLLRIG_FIT_SETS sets the number of sets. Without it there are 100 if ROLLRIG_WHOLE_STUDIES is set, and 50 else. With
+// 300 or more, the share of all intervals that hold the truth must lie in 93 to 97 %, as the tables of docs/fit_tire.md
+// say. The cases whose files have uncertainties of their own are a study that runs by name alone.
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 

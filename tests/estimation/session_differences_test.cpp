@@ -200,14 +200,10 @@ TEST_CASE("sessions of one pair that differ by several percent always have a fit
 
 TEST_CASE("sessions of one pair with winds of their own do not differ", "[slow]") {
   int said = 0;
-  const int seeds = tests::count_seeds(30);
-  for (int seed = 1; seed <= seeds; ++seed) {
-    said += tests::has_warning(fit_traces(make_sessions_of_pairs(1.0, 0.3, static_cast<std::uint64_t>(seed))),
-                               "the sessions differ")
-                ? 1
-                : 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    said += tests::has_warning(fit_traces(make_sessions_of_pairs(1.0, 0.3, seed)), "the sessions differ") ? 1 : 0;
   }
-  CHECK(said <= 1 + seeds / 30);
+  CHECK(said <= 2);
 }
 
 TEST_CASE("traces of sessions that differ by a share: the intervals of f0 and f2 hold the truth at their rate",
@@ -238,6 +234,7 @@ TEST_CASE("traces of sessions that differ by a share: the intervals of f0 and f2
     f2 += holds(2, 0.03 * 12.96);
   }
   INFO(f0 << " " << f2);
+  // at 2 % on the low side: fewer than 53 of 60 are rejected
   CHECK_FALSE(tests::is_rejected(f0, sets, 0.95, 0.04));
   CHECK_FALSE(tests::is_rejected(f2, sets, 0.95, 0.04));
 }

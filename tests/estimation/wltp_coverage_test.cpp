@@ -62,7 +62,7 @@ ProcedureStudy make_windy_study() {
 
 constexpr int kProcedureSeeds = 300;
 
-/// 95 % of the runs, within three standard deviations of a binomial.
+/// 95 % of the simulated procedures, within three standard deviations of a binomial.
 void require_procedure_coverage(const ProcedureCoverage& coverage) {
   for (const int within : coverage.within) {
     CHECK(within >= 0.95 * coverage.runs - 3.0 * 0.218 * std::sqrt(coverage.runs));

@@ -339,7 +339,7 @@ TEST_CASE("every kind of page of a diagnosis and of a plan", "[weekly]") {
                        {"plan", "plan --rig drum --hours 8" + only}});
 }
 
-TEST_CASE("pages of a run, sweeps, a comparison and a fit", "[slow]") {  // the others: weekly, and browser_test.cpp
+TEST_CASE("pages of a run, sweeps, a comparison and a fit", "[slow]") {  // others: weekly; diagnoses: browser_test.cpp
   const TemporaryFolder folder;
   check_kinds(folder,
               {{"coastdown", "run coastdown --set pairs=2" + kQuick},

@@ -92,7 +92,10 @@ void put_own(models::TireFile& tire, const std::string& key, double value) {
   find_own(tire.values.own, key) = unit_of_key(key).to_si(value);
 }
 
-int count_seeds(int all) { return std::getenv("ROLLRIG_WHOLE_STUDIES") != nullptr ? all : std::max(1, all / 4); }
+int count_seeds(int all) {
+  constexpr int kLeast = 50;
+  return std::getenv("ROLLRIG_WHOLE_STUDIES") != nullptr ? all : std::max(std::min(all, kLeast), all / 4);
+}
 
 bool is_rejected(int successes, int trials, double p, double level) {
   const boost::math::binomial_distribution<double> distribution(trials, p);
