@@ -209,8 +209,8 @@ TEST_CASE("sessions of one pair with winds of their own do not differ", "[slow]"
 TEST_CASE("traces of sessions that differ by a share: the intervals of f0 and f2 hold the truth at their rate",
           "[slow]") {
   int f0 = 0, f2 = 0;
-  const int sets = tests::count_seeds(60);
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(sets); ++seed) {
+  constexpr int kSets = 60;
+  for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
     RandomStream random(seed, "shares of sessions");
     CoastdownData data;
     for (const char* session : {"a", "b", "c"}) {
@@ -234,9 +234,8 @@ TEST_CASE("traces of sessions that differ by a share: the intervals of f0 and f2
     f2 += holds(2, 0.03 * 12.96);
   }
   INFO(f0 << " " << f2);
-  // at 2 % on the low side: fewer than 53 of 60 are rejected
-  CHECK_FALSE(tests::is_rejected(f0, sets, 0.95, 0.04));
-  CHECK_FALSE(tests::is_rejected(f2, sets, 0.95, 0.04));
+  CHECK(f0 >= 53);  // 57 on average; fewer than 53 in one of fifty
+  CHECK(f2 >= 53);
 }
 
 namespace {

@@ -39,9 +39,10 @@ double& find_own(models::OwnParameters<double>& own, const std::string& key);
 /// Puts a number of the tire's own law, in the unit of the key.
 void put_own(models::TireFile& tire, const std::string& key, double value);
 
-/// How many seeds a study of intervals uses: `all` if ROLLRIG_WHOLE_STUDIES is set, as the preset weekly does, otherwise
-/// a quarter, but 50 if there are as many. Of 50 seeds, is_rejected() finds a coverage of 85 % for 95 % in half of the
-/// studies, and no coverage that is too high; of 200, in 99 of 100.
+/// How many seeds a study of intervals uses: `all` if ROLLRIG_WHOLE_STUDIES is set, as in the preset weekly. Otherwise
+/// a quarter of them, at least 50 (or `all`, if that is less). If 95 % intervals contain the truth in 85 %,
+/// is_rejected() at 1 % detects that in half of the studies with 50 seeds, and in 99 of 100 with 200. With 50 seeds, it
+/// does not detect intervals that are too wide.
 int count_seeds(int all);
 
 /// Whether `successes` of `trials` is rejected by a two-sided binomial test of probability `p` at `level`.
