@@ -14,7 +14,7 @@ namespace rollrig {
 constexpr std::uintmax_t kLargestText_bytes = std::uintmax_t{64} << 20;  // Assumed: of TOML, JSON and other documents
 constexpr std::uintmax_t kLargestTable_bytes = std::uintmax_t{1} << 30;  // Assumed: of tables, such as CSV logs
 
-/// A file that cannot be read, whatever it holds: it is missing, no file, unreadable, empty or too large.
+/// A file that cannot be read, whatever it holds: it is missing, not a regular file, unreadable, empty or too large.
 class FileProblem : public InputError {
  public:
   using InputError::InputError;
@@ -28,7 +28,7 @@ std::string read_text_file(const std::string& path);
 std::string read_table_file(const std::string& path);
 
 /// The same of a table in one of the encodings of text_encoding.h, as UTF-8, of at most kLargestTable_bytes. `hint` is
-/// for errors: where to say the encoding.
+/// for errors: where the user can set the encoding.
 std::string read_text_file(const std::string& path, const std::string& encoding, const std::string& hint);
 
 /// The bytes of a table in a binary format, of at most kLargestTable_bytes. Throws InputError as read_text_file() does.
@@ -71,14 +71,15 @@ std::string nearest_file(const std::string& path);
 std::string calc_sha256(const std::string& content);
 
 /// Text that is written beside its place and put there by commit(): standard output for `-`, a device such as
-/// /dev/null, or a file, which then stands there whole. What is not committed goes with the object.
+/// /dev/null or a pipe, or a file, which then stands there whole. It keeps the permissions of the file that it
+/// replaces; where the path is a link, the file at its end is replaced. What is not committed goes with the object.
 class StagedOutput {
  public:
   /// Whether a file that stands there already is replaced.
   enum class Existing { kReplace, kKeep };
 
   /// Writes a file beside its place, under a name that nobody can foresee. Throws InputError (no permission, no space,
-  /// no such folder).
+  /// no such folder, a broken link).
   StagedOutput(std::string path, std::string content, Existing existing = Existing::kReplace);
   ~StagedOutput();
   StagedOutput(StagedOutput&& other) noexcept;
@@ -89,17 +90,26 @@ class StagedOutput {
   void append(const std::string& content);
   /// Whether it goes to standard output or a device: it then is written as it is, and cannot be taken back.
   bool is_direct() const { return is_direct_; }
-  /// Throws InputError: what the constructor throws, or a file that has come there with Existing::kKeep.
+  /// Throws InputError as the constructor does, or where a file is there and Existing is kKeep; Interrupted where a
+  /// pipe takes no more and the user stops the program.
   void commit();
 
  private:
-  std::string path_;
+  std::string path_;     // as given
+  std::string place_;    // the same, at the end of links
   std::string content_;  // of what is direct
   std::string staging_;  // empty where there is none
   Existing existing_;
   bool is_direct_ = false;
   bool is_appended_ = false;
 };
+
+/// Whether a folder holds more than staging files of a program that was killed. False where there is no folder.
+bool holds_files(const std::string& folder);
+/// Removes such staging files, as far as that is allowed. For a folder that no other program writes to.
+void remove_staging_files(const std::string& folder);
+/// Returns when the names in a folder are on the disk, such as after a rename. Throws InputError.
+void synchronize_folder(const std::string& folder);
 
 /// Writes one file whole. Throws InputError; what stood there before is kept then.
 void write_file_atomically(const std::string& path, const std::string& content);
@@ -115,7 +125,7 @@ void flush_standard_output();
 bool is_reader_gone();
 
 /// Throws InputError when write_output() could not write there: no such folder, no permission, a directory.
-/// To be called before work whose result would else be lost.
+/// To be called before work whose result would otherwise be lost.
 void require_writable(const std::string& path);
 
 /// A result folder that appears whole or not at all: files are collected and written into a folder beside the final

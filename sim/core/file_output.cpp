@@ -7,13 +7,16 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <random>
+#include <set>
 #include <system_error>
+#include <thread>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -21,6 +24,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 
 namespace fs = std::filesystem;
 
@@ -36,13 +40,13 @@ InputError place_problem(const std::string& what, const std::string& path, const
 
 InputError write_problem(const std::string& path, int error_number) {
   return place_problem(fmt::format("cannot write '{}': {}", path, std::strerror(error_number)), path,
-                       "a place with room where this user may write");
+                       "a place with free space where this user may write");
 }
 
 InputError folder_taken(const std::string& path, bool meanwhile) {
-  return place_problem(fmt::format("folder '{}' holds files {}", path,
-                                   meanwhile ? "that another program has written meanwhile" : "already"),
-                       path, "an empty or new folder, or --force to overwrite files of the same name");
+  return place_problem(
+      fmt::format("folder '{}' holds files {}", path, meanwhile ? "that another program has just written" : "already"),
+      path, "an empty or new folder, or --force to overwrite files of the same name");
 }
 
 /// Calls `act` with errors of the file system as InputError.
@@ -55,13 +59,38 @@ auto attempt(const std::string& path, Act&& act) {
   }
 }
 
+constexpr std::chrono::milliseconds kBetweenLooks{50};  // at whether the other end of a pipe is there, or Ctrl-C came
+
+/// Of a file or of what open_direct() has opened.
 void write_all(int descriptor, const std::string& path, const std::string& content) {
   std::size_t done = 0;
   while (done < content.size()) {
     const ssize_t n = ::write(descriptor, content.data() + done, content.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw write_problem(path, errno);
-    done += static_cast<std::size_t>(n);
+    if (n >= 0) {
+      done += static_cast<std::size_t>(n);
+    } else if (errno == EAGAIN) {  // a pipe that is full
+      throw_if_interrupted();
+      struct pollfd out {
+        descriptor, POLLOUT, 0
+      };
+      ::poll(&out, 1, static_cast<int>(kBetweenLooks.count()));
+    } else if (errno != EINTR) {
+      throw write_problem(path, errno);
+    }
+  }
+}
+
+/// Opens a device or a pipe for writing. Waits for the reader of a pipe until the user stops the program.
+int open_direct(const std::string& path) {
+  for (;;) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor >= 0) return descriptor;
+    const int error_number = errno;
+    std::error_code code;
+    const bool has_no_reader = error_number == ENXIO && fs::is_fifo(path, code);
+    if (error_number != EINTR && !has_no_reader) throw write_problem(path, error_number);
+    throw_if_interrupted();
+    std::this_thread::sleep_for(kBetweenLooks);
   }
 }
 
@@ -80,7 +109,7 @@ void synchronize_path(const fs::path& path) {
 
 enum class Durability { kLater, kNow };
 
-/// Writes a file that is not there yet, or one of one's own.
+/// Writes to a file that this process has made, or to what open_direct() has opened.
 void write_descriptor(const std::string& path, int descriptor, const std::string& content, Durability durability) {
   bool closed = false;
   BOOST_SCOPE_EXIT_ALL(&) {
@@ -99,8 +128,8 @@ void write_staged_file(const std::string& path, const std::string& content, cons
   write_descriptor(shown, descriptor, content, Durability::kLater);
 }
 
-/// Tries hidden names beside `place`, which nobody can foresee, until `make` has made a file or folder of one: it
-/// returns a number below 0, and errno, where it has not. Returns the name.
+/// Tries unpredictable hidden names in a folder until `make` has made a file or folder with one of them: `make` returns
+/// a number below 0, and sets errno, where it has not. Returns the name.
 std::string make_hidden(const fs::path& folder, const std::string& name, const std::string& path,
                         const std::function<int(const char*)>& make) {
   constexpr int kTries = 100;
@@ -126,14 +155,8 @@ bool is_staging(const fs::path& path) {
   return name.front() == '.' && name.find(".partial-") != std::string::npos;
 }
 
-/// Whether there is more in a folder than what a program that was killed has left.
-bool holds_files(const fs::path& path) {
-  if (!fs::exists(path)) return false;
-  return std::any_of(fs::directory_iterator(path), fs::directory_iterator(),
-                     [](const fs::directory_entry& entry) { return !is_staging(entry.path()); });
-}
-
-/// Whether an empty folder can be replaced by another: not a mount point, the working folder or that of another user.
+/// Whether a folder can be replaced by another: it is empty, and not a mount point, the working folder or that of
+/// another user.
 bool can_be_replaced(const fs::path& folder) {
   struct stat own {};
   struct stat parent {};
@@ -159,12 +182,61 @@ int rename_to_free(const std::string& from, const std::string& to) {
   return ::unlink(from.c_str());
 }
 
+/// Whether a file may be replaced in a folder that may be written to. In one with the sticky bit, such as /tmp, the
+/// owners of the file and of the folder alone may, and root.
+bool may_replace(const std::string& path, const std::string& folder) {
+  struct stat file {};
+  struct stat around {};
+  if (::lstat(path.c_str(), &file) != 0 || ::stat(folder.c_str(), &around) != 0) return true;
+  const uid_t user = ::geteuid();
+  return (around.st_mode & S_ISVTX) == 0 || user == 0 || user == file.st_uid || user == around.st_uid;
+}
+
+/// The file at the end of links, where there is one. What is no file, such as a pipe, keeps its path.
+std::string follow_links(const std::string& path) {
+  std::error_code code;
+  if (!fs::is_symlink(path, code)) return path;
+  if (!fs::exists(path, code)) {
+    throw place_problem(fmt::format("'{}' is a broken symbolic link", path), path, "a file name");
+  }
+  if (!fs::is_regular_file(path, code)) return path;
+  const std::string folder = fs::path(path).parent_path().string();
+  if (folder == "/dev" || folder == "/dev/fd" || folder.rfind("/proc/", 0) == 0) {
+    throw place_problem(fmt::format("'{}' stands for a file that is open already", path), path,
+                        "the name of that file, or - for standard output");
+  }
+  return fs::canonical(path).string();
+}
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
 }  // namespace
+
+bool holds_files(const std::string& folder) {
+  if (!fs::exists(folder)) return false;
+  return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [](const fs::directory_entry& entry) { return !is_staging(entry.path()); });
+}
+
+void remove_staging_files(const std::string& folder) {
+  std::error_code ignored;
+  std::vector<fs::path> leftovers;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (is_staging(entry.path())) leftovers.push_back(entry.path());
+  }
+  for (const fs::path& leftover : leftovers) fs::remove_all(leftover, ignored);
+}
+
+void synchronize_folder(const std::string& folder) { synchronize_path(folder); }
 
 StagedOutput::StagedOutput(std::string path, std::string content, Existing existing)
     : path_(std::move(path)), existing_(existing) {
   std::error_code code;
-  const fs::file_status status = fs::status(path_, code);
+  place_ = path_ == "-" ? path_ : follow_links(path_);
+  const fs::file_status status = fs::status(place_, code);
   if (fs::is_directory(status) && path_ != "-") {
     throw place_problem(fmt::format("'{}' is a directory, not a file", path_), path_, "a file name");
   }
@@ -174,20 +246,23 @@ StagedOutput::StagedOutput(std::string path, std::string content, Existing exist
     return;
   }
   int descriptor = -1;
-  const fs::path place(path_);
+  const fs::path place(place_);
   staging_ = make_hidden(place.parent_path(), place.filename().string(), path_, [&descriptor](const char* tried) {
     return descriptor = ::open(tried, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kReadableByAll);
   });
   try {
+    // Some file systems have no permissions: then the file has theirs.
+    if (fs::is_regular_file(status)) ::fchmod(descriptor, static_cast<mode_t>(status.permissions()));
     write_descriptor(path_, descriptor, content, Durability::kNow);
   } catch (...) {
-    ::unlink(staging_.c_str());  // no destructor of what is not made
+    ::unlink(staging_.c_str());  // the destructor does not run
     throw;
   }
 }
 
 StagedOutput::StagedOutput(StagedOutput&& other) noexcept
     : path_(std::move(other.path_)),
+      place_(std::move(other.place_)),
       content_(std::move(other.content_)),
       staging_(std::move(other.staging_)),
       existing_(other.existing_),
@@ -222,22 +297,19 @@ void StagedOutput::commit() {
     return;
   }
   if (is_direct_) {
-    const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0) throw write_problem(path_, errno);
-    write_descriptor(path_, descriptor, content_, Durability::kLater);
+    write_descriptor(path_, open_direct(place_), content_, Durability::kLater);
     return;
   }
   if (is_appended_) synchronize_path(staging_);
   const bool keeps = existing_ == Existing::kKeep;
-  if ((keeps ? rename_to_free(staging_, path_) : std::rename(staging_.c_str(), path_.c_str())) != 0) {
+  if ((keeps ? rename_to_free(staging_, place_) : std::rename(staging_.c_str(), place_.c_str())) != 0) {
     if (keeps && errno == EEXIST) {
       throw place_problem(fmt::format("'{}' is there already", path_), path_, "another file, or --force to replace it");
     }
     throw write_problem(path_, errno);
   }
   staging_.clear();
-  const fs::path parent = fs::path(path_).parent_path();
-  synchronize_path(parent.empty() ? fs::path(".") : parent);
+  synchronize_path(folder_of(place_));
 }
 
 void write_file_atomically(const std::string& path, const std::string& content) {
@@ -263,12 +335,16 @@ void require_writable(const std::string& path) {
     if (fs::is_directory(path)) {
       throw place_problem(fmt::format("'{}' is a directory, not a file", path), path, "a file name");
     }
-    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
-    if (!fs::is_directory(folder)) throw place_problem(fmt::format("no such folder '{}'", folder.string()), path);
+    const std::string place = follow_links(path);
+    const std::string folder = folder_of(place);
+    if (!fs::is_directory(folder)) throw place_problem(fmt::format("no such folder '{}'", folder), path);
     // A file is replaced as a whole, which its folder must allow; what is no file (/dev/null) is written to as it is.
-    const bool is_replaced = !fs::exists(path) || fs::is_regular_file(path);
-    if (::access((is_replaced ? folder.string() : path).c_str(), W_OK) != 0) {
+    const bool is_replaced = !fs::exists(place) || fs::is_regular_file(place);
+    if (::access((is_replaced ? folder : place).c_str(), W_OK) != 0) {
       throw place_problem(fmt::format("cannot write '{}': {}", path, std::strerror(errno)), path);
+    }
+    if (is_replaced && !may_replace(place, folder)) {
+      throw place_problem(fmt::format("cannot write '{}': it belongs to another user", path), path);
     }
   });
 }
@@ -279,7 +355,7 @@ OutputFolder::OutputFolder(std::string path, bool force) : path_(std::move(path)
       throw place_problem(fmt::format("'{}' is a file, not a folder", path_), path_, "a folder name");
     }
     if (!fs::exists(path_) && fs::is_symlink(path_)) {
-      throw place_problem(fmt::format("'{}' is a link to what is not there", path_), path_, "a folder name");
+      throw place_problem(fmt::format("'{}' is a broken symbolic link", path_), path_, "a folder name");
     }
     place_ = find_place(path_).string();
     if (!force_ && holds_files(place_)) throw folder_taken(path_, false);
@@ -383,26 +459,29 @@ void OutputFolder::move_into_existing() {
   const int lock = ::open(place_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock < 0) throw write_problem(path_, errno);
   BOOST_SCOPE_EXIT_ALL(&) { ::close(lock); };
-  while (::flock(lock, LOCK_EX) != 0 && errno == EINTR) {  // so that the files of two programs do not mix
+  // So that the files of two programs do not mix; a file system may have no locks.
+  while (::flock(lock, LOCK_EX) != 0 && errno == EINTR) {
   }
   require_room();
   std::vector<fs::path> moved;
-  for (const std::string& name : written_) {
-    const fs::path to = fs::path(place_) / name;
-    fs::create_directories(to.parent_path());
-    const fs::path from = fs::path(staging_) / name;
-    if (std::rename(from.c_str(), to.c_str()) != 0) {
-      const int error_number = errno;
-      for (const fs::path& gone : moved) {
-        if (!force_) ::unlink(gone.c_str());
-      }
-      throw write_problem(path_, error_number);
+  std::set<fs::path> folders{place_};
+  try {
+    for (const std::string& name : written_) {
+      const fs::path to = fs::path(place_) / name;
+      fs::create_directories(to.parent_path());
+      fs::rename(fs::path(staging_) / name, to);
+      moved.push_back(to);
+      folders.insert(to.parent_path());
     }
-    moved.push_back(to);
+  } catch (const fs::filesystem_error&) {
+    for (const fs::path& gone : moved) {
+      if (!force_) ::unlink(gone.c_str());
+    }
+    throw;
   }
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
-  synchronize_path(place_);
+  for (const fs::path& folder : folders) synchronize_path(folder);
 }
 
 }  // namespace rollrig

@@ -1,13 +1,19 @@
 // What is written: whole or not at all, under names that nobody can foresee, and never over what another program wrote.
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <iterator>
 #include <limits>
+#include <thread>
 
+#include "include/rollrig/progress.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/json.h"
@@ -47,7 +53,7 @@ TEST_CASE("of two that write one new folder the second is refused, and the first
     second.add("more.txt", "second");
     second.flush();
     first.commit();
-    CHECK_THROWS_WITH(second.commit(), Catch::Contains("another program has written"));
+    CHECK_THROWS_WITH(second.commit(), Catch::Contains("another program has just written"));
     CHECK(read_text_file(target + "/result.json") == "first");
     CHECK_FALSE(fs::exists(target + "/more.txt"));
   }
@@ -79,6 +85,94 @@ TEST_CASE("nothing follows a link that was planted under the name that is writte
   folder.add("a", "new");
   folder.commit();
   CHECK(read_text_file(base.file("folder/a")) == "new");
+}
+
+TEST_CASE("a file that is replaced keeps its permissions, and a link to it stays a link", "[fast]") {
+  const TemporaryFolder base;
+  tests::write_file(base.file("private"), "old");
+  fs::permissions(base.file("private"), fs::perms(0600));
+  fs::create_symlink("private", base.file("link"));
+  require_writable(base.file("link"));
+  write_output(base.file("link"), "new");
+  CHECK(fs::is_symlink(base.file("link")));
+  CHECK(read_text_file(base.file("private")) == "new");
+  CHECK(mode_of(base.file("private")) == 0600);
+  CHECK(base.entry_count() == 2);
+}
+
+TEST_CASE("a broken link and an open file under /dev are no files to write", "[fast]") {
+  const TemporaryFolder base;
+  fs::create_symlink("nowhere", base.file("link"));
+  CHECK_THROWS_WITH(require_writable(base.file("link")), Catch::Contains("broken symbolic link"));
+  CHECK_THROWS_WITH(write_output(base.file("link"), "new"), Catch::Contains("broken symbolic link"));
+  tests::write_file(base.file("open"), "old");
+  const int descriptor = ::open(base.file("open").c_str(), O_WRONLY);
+  REQUIRE(descriptor >= 0);
+  const std::string path = "/dev/fd/" + std::to_string(descriptor);
+  CHECK_THROWS_WITH(write_output(path, "new"), Catch::Contains("- for standard output"));
+  ::close(descriptor);
+  CHECK(read_text_file(base.file("open")) == "old");
+}
+
+TEST_CASE("a pipe without a reader, and one that is full, can be left by Ctrl-C", "[fast]") {
+  const TemporaryFolder base;
+  const std::string pipe = base.file("pipe");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const std::string more_than_a_pipe_holds(1 << 20, 'x');
+  const auto stop_soon = [] {
+    return std::async(std::launch::async, [] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      request_interrupt();
+    });
+  };
+  {
+    const auto stop = stop_soon();
+    CHECK_THROWS_AS(write_output(pipe, "text"), Interrupted);
+    stop.wait();
+    clear_interrupt();
+  }
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  {
+    const auto stop = stop_soon();
+    CHECK_THROWS_AS(write_output(pipe, more_than_a_pipe_holds), Interrupted);
+    stop.wait();
+    clear_interrupt();
+  }
+  ::close(reader);
+  auto received = std::async(std::launch::async, [&pipe] {
+    std::ifstream in(pipe, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  });
+  write_output(pipe, more_than_a_pipe_holds);
+  CHECK(received.get() == more_than_a_pipe_holds);
+}
+
+TEST_CASE("in a folder with the sticky bit the file of another user cannot be replaced, which is said before the work",
+          "[fast]") {
+  if (::geteuid() != 0) return;  // it takes two users
+  const TemporaryFolder base;
+  fs::permissions(base.path(), fs::perms(01777));
+  tests::write_file(base.file("of_root"), "old");
+  REQUIRE(::seteuid(65534) == 0);
+  CHECK_THROWS_WITH(require_writable(base.file("of_root")), Catch::Contains("belongs to another user"));
+  CHECK_NOTHROW(require_writable(base.file("new")));
+  REQUIRE(::seteuid(0) == 0);
+  CHECK_NOTHROW(require_writable(base.file("of_root")));
+}
+
+TEST_CASE("staging files of a killed program count for nothing, and can be removed", "[fast]") {
+  const TemporaryFolder base;
+  CHECK(!holds_files(base.file("missing")));
+  tests::write_file(base.file(".a.json.partial-0123456789abcdef"), "half");
+  fs::create_directories(base.file(".out.partial-0123456789abcdef/in"));
+  CHECK(!holds_files(base.path()));
+  remove_staging_files(base.path());
+  CHECK(base.entry_count() == 0);
+  tests::write_file(base.file("mine"), "whole");
+  CHECK(holds_files(base.path()));
+  remove_staging_files(base.path());
+  CHECK(base.entry_count() == 1);
 }
 
 TEST_CASE("what is staged and not committed leaves nothing, parents included", "[fast]") {
