@@ -1,12 +1,12 @@
 #pragma once
-/// A folder that one process at a time works in.
+/// An exclusive lock on a folder.
 
 #include <string>
 
 namespace rollrig {
 
-/// Locks a folder against other processes that lock it, for as long as the object is there. A file system may know no
-/// locks, such as that of some network drives: then it counts as locked by each of them.
+/// Locks a folder against other processes that lock it, for as long as the object is there. Where the file system has
+/// no locks for folders, as on some network drives, every process gets the lock.
 class FolderLock {
  public:
   explicit FolderLock(const std::string& path);

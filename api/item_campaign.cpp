@@ -154,6 +154,7 @@ CampaignState ItemCampaign::merge() const {
   });
   store.close();
   fs::rename(partial, merged);
+  synchronize_folder(data_->folder.path);  // before the files that it replaces go
   const auto has = [&is_merged](std::size_t item) { return item < is_merged.size() && is_merged[item]; };
   for (const std::string& file : files) {
     if (file == merged) continue;

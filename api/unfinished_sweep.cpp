@@ -61,8 +61,7 @@ void UnfinishedSweep::open() {
 
 void UnfinishedSweep::require_definition(const std::string& definition) const {
   const std::string file = (fs::path(path_) / kDefinitionFile).string();
-  std::error_code none;
-  if (fs::is_empty(path_, none)) {
+  if (!holds_files(path_)) {
     write_file_atomically(file, definition);
   } else if (!is_there(file) || read_text_file(file) != definition) {
     throw folder_problem(path_, "holds the points of another, unfinished sweep",
@@ -74,6 +73,7 @@ void UnfinishedSweep::remove() const {
   std::error_code ignored;  // what cannot be removed does no harm
   for (const std::string& results : campaigns::CampaignFolder{path_, "", 0}.list_files()) fs::remove(results, ignored);
   fs::remove(fs::path(path_) / kDefinitionFile, ignored);
+  remove_staging_files(path_);
   fs::remove(path_, ignored);  // unless it holds files of somebody else
 }
 

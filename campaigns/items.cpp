@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <mutex>
 #include <numeric>
@@ -21,6 +20,7 @@
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/parallel.h"
+#include "sim/core/parse_json.h"
 
 namespace fs = std::filesystem;
 
@@ -60,8 +60,11 @@ Record carry_out_one(const ItemList& list, const CampaignFolder& folder, std::si
 
 /// What a process says of the file that it writes; nothing where it has just begun, or just ended.
 Tally read_progress(const std::string& results) {
-  std::ifstream in(progress_file_of(results));
-  const Json said = Json::parse(in, nullptr, false);
+  Json said;
+  try {
+    said = read_json(progress_file_of(results));
+  } catch (const InputError&) {
+  }
   const auto read_count = [&said](const char* key) {
     const bool is_count = said.is_object() && said.contains(key) && said[key].is_number_unsigned();
     return is_count ? said[key].get<std::size_t>() : 0;
@@ -229,6 +232,8 @@ class ResultsFile::Progress {
  public:
   Progress(std::string path, const Tally& at_start)
       : path_(std::move(path)), next_(std::chrono::steady_clock::now() + kInterval) {
+    std::error_code ignored;
+    fs::remove(path_, ignored);  // of a process that was killed
     if (at_start.done > 0) say(at_start);
   }
   ~Progress() {

@@ -205,8 +205,9 @@ std::optional<Part> find_part(const Environment& environment) {
   const std::optional<Part> process = find_process_part(environment);
   refuse_uncounted(environment, process.has_value());
   if (!array.has_value() || !process.has_value()) return array.has_value() ? array : process;
-  return make_part("SLURM_ARRAY_TASK_ID", (array->number - 1) + array->count * (process->number - 1) + 1,
-                   array->count * process->count);
+  const bool is_slurm = environment("SLURM_ARRAY_TASK_ID") != nullptr;
+  return make_part(is_slurm ? "SLURM_ARRAY_TASK_ID" : "SGE_TASK_ID",
+                   (array->number - 1) + array->count * (process->number - 1) + 1, array->count * process->count);
 }
 
 }  // namespace rollrig::campaigns

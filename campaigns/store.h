@@ -30,8 +30,10 @@ struct Record {
 /// A file of records that this process writes.
 ///
 /// It is kept as a write-ahead log in exclusive locking mode. A record is safe from a kill of the process once write()
-/// has returned, and from a loss of power about a second later. No memory is shared with other processes, so that the
-/// file may be on a network drive whose locks work. A second process that opens it is refused.
+/// has returned. It is safe from a loss of power once write() has returned a second or more after the disk was last
+/// written to, or after close(): a record that follows another one sooner waits for the next one. No memory is shared
+/// with other processes, so the file may be on a network drive that supports locks. A second process that opens it is
+/// refused.
 /// Source   sqlite.org/wal.html, "Use of WAL Without Shared-Memory"
 class Store {
  public:
@@ -56,7 +58,7 @@ class Store {
   std::unique_ptr<Database> database_;
 };
 
-/// Those of the files that a process writes now, in the same order. Takes a fifth of a second where there are any,
+/// The files that another process is writing, in the same order. Takes a fifth of a second where there are any,
 /// however many.
 std::vector<std::string> list_in_use(const std::vector<std::string>& paths);
 

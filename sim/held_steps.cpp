@@ -1,6 +1,7 @@
 #include "sim/held_steps.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,7 @@ double StepGrowth::find_longest_s(double since_change_s) const {
 }
 
 void lengthen_held_steps(const StepGrowth& growth, const InputChanges& changes, Phase& phase) {
+  if (!(growth.first_s > 0.0)) throw std::invalid_argument("the first steps must be longer than 0 s");
   std::vector<Segment> parts;
   parts.reserve(phase.segments.size());
   double since_change_s = 0.0;

@@ -8,9 +8,9 @@
 
 namespace rollrig::sim {
 
-/// How steps grow after a change of an input: `first_s` at most for N = `steps_before_doubling` such steps, then twice
-/// as long, and so on, up to `most_s`. Steps that have grown are between 1/N and 2/N of the time since the change: what
-/// has not settled by then changes about as slowly as that time is long. Assumed: N = 80.
+/// How steps grow after a change of an input: N = `steps_before_doubling` steps of at most `first_s`, then steps twice
+/// as long, and so on, up to `most_s`. A step that has grown is between 1/N and 2/N of the time since the change. That is
+/// fine enough: what decays quickly has settled by then, and what is left changes slowly. Assumed: N = 80.
 struct StepGrowth {
   double first_s = 0.0;
   double most_s = 0.0;
@@ -28,7 +28,7 @@ struct InputChanges {
 };
 
 /// Cuts the segments of a phase into parts with equally long steps, which grow while inputs do not change. The start of
-/// the phase counts as a change.
+/// the phase counts as a change. Throws std::invalid_argument where `first_s` is not above 0.
 /// Checked   tests/sim/held_steps_test.cpp, tests/measurements/resimulation_test.cpp
 void lengthen_held_steps(const StepGrowth& growth, const InputChanges& changes, Phase& phase);
 

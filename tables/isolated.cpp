@@ -1,10 +1,12 @@
 #include "tables/isolated.h"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -36,6 +38,7 @@ class Writer {
   void send(int descriptor) const {
     for (std::size_t done = 0; done < bytes_.size();) {
       const ssize_t n = ::write(descriptor, bytes_.data() + done, bytes_.size() - done);
+      if (n < 0 && errno == EINTR) continue;
       if (n <= 0) return;
       done += static_cast<std::size_t>(n);
     }
@@ -149,10 +152,12 @@ void require_small(const Columns& columns, const std::string& path) {
 std::string receive(int descriptor) {
   std::string bytes;
   std::array<char, 65536> part;
-  for (ssize_t n = 0; (n = ::read(descriptor, part.data(), part.size())) > 0;) {
+  for (;;) {
+    const ssize_t n = ::read(descriptor, part.data(), part.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return bytes;
     bytes.append(part.data(), static_cast<std::size_t>(n));
   }
-  return bytes;
 }
 
 Columns understand(const std::string& path, Reader reader) {
@@ -181,9 +186,12 @@ Columns understand(const std::string& path, Reader reader) {
 
 Columns read_isolated(const std::string& path, const std::function<Columns(const std::string&)>& read) {
   std::array<int, 2> ends;
-  if (::pipe(ends.data()) != 0) throw std::runtime_error("no pipe to a child process");
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe to a child process");
   const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error("no child process");
+  if (child < 0) {
+    for (const int end : ends) ::close(end);
+    throw std::runtime_error("no child process");
+  }
   if (child == 0) carry_out(path, read, ends[1]);
   ::close(ends[1]);
   const std::string bytes = receive(ends[0]);

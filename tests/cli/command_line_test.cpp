@@ -241,6 +241,15 @@ TEST_CASE("what is not of a sweep stays in the folder of its points", "[fast]") 
   CHECK(fs::exists(folder.file("out.unfinished/mine.json")));
 }
 
+TEST_CASE("a kill while a sweep writes its definition does not stop the next one", "[fast]") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.file("out.unfinished"));
+  write_file(folder.file("out.unfinished/.sweep_definition.json.partial-0123456789abcdef"), "{");
+  const std::string sweep = "sweep iso_28580 --tire a50 --fidelity quasi_static --vary load_N=5000,6000 --out out";
+  REQUIRE(run_program(sweep, folder.path()).status == 0);
+  CHECK(!fs::exists(folder.file("out.unfinished")));
+}
+
 TEST_CASE("a sweep in several processes of one launcher is refused", "[fast]") {
   const TemporaryFolder folder;
   const std::string sweep = "sweep iso_28580 --tire a50 --fidelity quasi_static --vary load_N=5000,6000";
