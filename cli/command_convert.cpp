@@ -27,8 +27,8 @@ void add_in_unit(CLI::App& command, const std::string& option, std::optional<dou
 void add_drum(CLI::App& command, const std::string& option, std::optional<double>& curvature_per_m, const char* doc) {
   const auto set = [&curvature_per_m, option](const std::string& text) {
     const std::optional<double> diameter_m = parse_number(text);
-    if (text != "flat" && !(diameter_m.has_value() && *diameter_m > 0.0)) {
-      throw usage_error(fmt::format("'{}' is not a drum", text), option, text, "a diameter in m, > 0, or flat");
+    if (text != "flat" && !(diameter_m.has_value() && *diameter_m >= 0.1)) {  // as convert_loss() allows
+      throw usage_error(fmt::format("'{}' is not a drum", text), option, text, "a diameter of 0.1 m or more, or flat");
     }
     curvature_per_m = text == "flat" ? 0.0 : 2.0 / *diameter_m;
   };

@@ -6,7 +6,8 @@
 
 namespace rollrig::models {
 
-/// Coefficients of the parasitic loss, as force at the surface of the drum, tire lifted.
+/// Coefficients of the parasitic loss, as force at the surface of the drum, tire lifted. Assumed: the upper limits, far
+/// above any machine; beyond them, the rolling resistance is lost in the rounding of the drum torque.
 template <class S>
 struct ParasiticParameters {
   S c0_N{};
@@ -15,9 +16,9 @@ struct ParasiticParameters {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"c0_N", non_negative(), "Bearing friction"}, p.c0_N);
-    visit(Field{"c1_N_s_per_m", non_negative(), "Its rise with speed"}, p.c1_N_s_per_m);
-    visit(Field{"c2_N_s2_per_m2", non_negative(), "Air drag of the drum"}, p.c2_N_s2_per_m2);
+    visit(Field{"c0_N", between(0.0, 1e5), "Bearing friction"}, p.c0_N);
+    visit(Field{"c1_N_s_per_m", between(0.0, 1e4), "Its rise with speed"}, p.c1_N_s_per_m);
+    visit(Field{"c2_N_s2_per_m2", between(0.0, 1e3), "Air drag of the drum"}, p.c2_N_s2_per_m2);
   }
 };
 

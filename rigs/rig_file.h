@@ -80,8 +80,8 @@ struct CarriageParameters {
     visit(Field{"mass_kg", between(0.1, 1000000.0),
                 "Moving mass without the wheel. Assumed: 155 kg, a bounce of 5.6 Hz", 155.0},
           p.mass_kg);
-    visit(Field{"damping_N_s_per_m", non_negative(), "Damper of the load cylinder. Assumed: 9 kN s/m, 0.7 of critical",
-                9000.0},
+    visit(Field{"damping_N_s_per_m", between(0.0, 1e9),
+                "Damper of the load cylinder. Assumed: 9 kN s/m, 0.7 of critical", 9000.0},
           p.damping_N_s_per_m);
     visit(Field{"load_time_constant_s", between(0.005, 2.0),
                 "Of the cylinder after a change of load (first order). Assumed: 0.015 s, a servo valve: a step "

@@ -46,7 +46,7 @@ struct TireStiffness {
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"vertical_N_per_m", between(1000.0, 100000000.0), "Vertical stiffness dFz/dz"}, p.vertical_N_per_m);
-    visit(Field{"vertical_damping_N_s_per_m", non_negative(), "Vertical damping"}, p.vertical_damping_N_s_per_m);
+    visit(Field{"vertical_damping_N_s_per_m", between(0.0, 1e6), "Vertical damping"}, p.vertical_damping_N_s_per_m);
     visit(Field{"slip_stiffness_N", between(10.0, 1000000000.0),
                 "dFx/dslip at the reference load; acts with slip_loss only"},
           p.slip_stiffness_N);
