@@ -142,12 +142,12 @@ Planted plant_shared_part(CoastdownData& data, RandomStream& random) {
     joined.time_s.push_back(from.time_s[i]);
     joined.speed_m_s.push_back(from.speed_m_s[i]);
   }
-  std::size_t next = 0;
-  while (next < to.time_s.size() && to.speed_m_s[next] > join_m_s) ++next;
-  const double shift_s = joined.time_s.back() + 0.1 - to.time_s[next];
-  for (; next < to.time_s.size(); ++next) {
-    joined.time_s.push_back(to.time_s[next] + shift_s);
-    joined.speed_m_s.push_back(to.speed_m_s[next]);
+  std::size_t slow = 0;  // none where the other run ends above that speed
+  while (slow < to.time_s.size() && to.speed_m_s[slow] > join_m_s) ++slow;
+  const double slow_from_s = joined.time_s.back() + 0.1;
+  for (std::size_t i = slow; i < to.time_s.size(); ++i) {
+    joined.time_s.push_back(to.time_s[i] + (slow_from_s - to.time_s[slow]));
+    joined.speed_m_s.push_back(to.speed_m_s[i]);
   }
   to = joined;
   return {DoubtKind::kRepeat, {from.id, to.id}, "the same recording"};
