@@ -1,7 +1,8 @@
-/// fuzz_readers: gives changed inputs to the readers, in a child process, and says which input ends it.
+/// fuzz_readers: feeds mutated inputs to the readers, in a child process, and says which input ends it.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -20,9 +21,9 @@ using namespace rollrig::fuzz;
 
 namespace {
 
-constexpr std::size_t kMostBytes = kMostInput_B / 2;  // of a changed input
+constexpr std::size_t kMostBytes = kMostInput_B / 2;  // of a mutated input
 constexpr unsigned kHang_s = 5;                       // for one input
-constexpr std::size_t kMostMemory_B = 1UL << 30;      // for a reader
+constexpr std::size_t kMostMemory_B = 3UL << 29;      // Assumed: address space, a third of it for libraries
 
 struct Options {
   std::vector<std::string> targets;
@@ -34,7 +35,7 @@ struct Options {
   std::vector<std::string> replay;
 };
 
-/// Seeds, and inputs that were neither read nor refused before.
+/// Seeds and regression inputs.
 std::vector<std::string> list_inputs(const Target& target) {
   std::vector<std::string> inputs = target.make_seeds();
   const fs::path former = fs::path(ROLLRIG_SOURCE_DIR) / "tests/fuzz/crashes" / target.name;
@@ -43,21 +44,22 @@ std::vector<std::string> list_inputs(const Target& target) {
   return inputs;
 }
 
-/// All inputs as they are, then changed ones until the time is over.
+void give(const Target& target, const std::string& input, const std::string& folder, Watched& watched) {
+  watched.begin(input, kHang_s);
+  execute(target, input, folder);
+  watched.end();
+}
+
+/// All inputs as they are, then mutated ones until the time is over.
 void work(const Target& target, const Options& options, const std::string& folder, Watched& watched) {
-  const auto give = [&](const std::string& input) {
-    watched.begin(input, kHang_s);
-    execute(target, input, folder);
-    watched.end();
-  };
   const std::vector<std::string> inputs = list_inputs(target);
-  for (const std::string& input : inputs) give(input);
+  for (const std::string& input : inputs) give(target, input, folder, watched);
   Engine engine(options.seed);
   const auto start = std::chrono::steady_clock::now();
   while (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < options.seconds) {
     const std::string& input = inputs[engine() % inputs.size()];
     const std::string& other = inputs[engine() % inputs.size()];
-    give(mutate(input, other, kMostBytes, engine));
+    give(target, mutate(input, other, kMostBytes, engine), folder, watched);
   }
 }
 
@@ -83,27 +85,48 @@ void write_seeds(const Target& target, const std::string& folder) {
   }
 }
 
-void replay(const Target& target, const std::vector<std::string>& files) {
+/// Whether all files were read or refused.
+bool replay(const Target& target, const std::vector<std::string>& files) {
+  Watched watched;
   const tests::TemporaryFolder folder;
-  for (const std::string& file : files) execute(target, tests::read_file(file), folder.path());
+  const auto give_files = [&] {
+    for (const std::string& file : files) give(target, tests::read_file(file), folder.path(), watched);
+  };
+  const std::string ended = watched.run(give_files, kMostMemory_B);
+  std::cout << fmt::format("{:14} {:>9} executions\n", target.name, watched.executions());
+  if (ended.empty()) return true;
+  const std::string& file = files.at(std::min(watched.executions(), files.size() - 1));
+  std::cout << fmt::format("{}: {}, by the input in {}\n", target.name, ended, file);
+  return false;
+}
+
+/// For CLI11: an empty text, or what is wrong.
+std::string check_readable(const std::string& file) {
+  return std::ifstream(file).good() ? "" : "Cannot read the file: " + file;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Gives changed inputs to the readers of files and texts"};
+  CLI::App app{"Feeds mutated inputs to the readers of files and texts"};
   Options options;
-  app.add_option("--target", options.targets, "Readers [all]");
+  std::vector<std::string> names;
+  for (const Target& target : list_targets()) names.push_back(target.name);
+  app.add_option("--target", options.targets, "Readers [all]")->check(CLI::IsMember(names));
   app.add_option("--seconds", options.seconds, "Time of each reader [1]");
   app.add_option("--seed", options.seed, "Decides all changes [1]");
-  app.add_option("--out", options.out, "Folder for inputs that are neither read nor refused [.]");
-  app.add_option("--write-seeds", options.write_seeds, "Writes seeds and former mistakes to a folder, and ends");
-  app.add_option("--replay", options.replay, "Gives these files, as they are, to the one --target, and ends");
+  app.add_option("--out", options.out, "Folder for inputs that crash or hang a reader [.]");
+  app.add_option("--write-seeds", options.write_seeds, "Writes seeds and regression inputs to a folder, and ends");
+  app.add_option("--replay", options.replay, "Gives these files, as they are, to the one --target, and ends")
+      ->check(CLI::ExistingFile)
+      ->check(check_readable);
   app.add_flag("--list", options.is_list, "Prints the readers, and ends");
   CLI11_PARSE(app, argc, argv);
-  if (options.targets.empty()) {
-    for (const Target& target : list_targets()) options.targets.push_back(target.name);
+  if (!options.replay.empty() && options.targets.size() != 1) {
+    std::cerr << "fuzz_readers: --replay needs exactly one --target\n";
+    return 2;
   }
+  if (options.targets.empty()) options.targets = names;
   bool is_good = true;
   for (const std::string& name : options.targets) {
     const Target& target = find_target(name);
@@ -112,7 +135,7 @@ int main(int argc, char** argv) {
     } else if (!options.write_seeds.empty()) {
       write_seeds(target, options.write_seeds);
     } else if (!options.replay.empty()) {
-      replay(target, options.replay);
+      is_good = replay(target, options.replay) && is_good;
     } else {
       is_good = fuzz_target(target, options) && is_good;
     }

@@ -15,7 +15,7 @@ struct Target {
   std::vector<std::string> files;
   /// Reads the text, or the folder that holds the files.
   std::function<void(const std::string&)> read;
-  /// Well-formed inputs and former mistakes, as parts.
+  /// Well-formed inputs and inputs with mistakes, as parts.
   std::function<std::vector<std::string>()> make_seeds;
 };
 

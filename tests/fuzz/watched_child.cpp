@@ -8,18 +8,22 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <numeric>
 #include <stdexcept>
 
 namespace rollrig::fuzz {
 namespace {
 
+constexpr unsigned kWaits = 12;  // wall-clock time per CPU time
+constexpr int kThrew = 88;       // exit status of the child
+
 /// Of the processor, so that other work on the machine does not count; and of the clock, for what waits for ever.
 void set_limit(unsigned most_s) {
-  constexpr unsigned kWaits = 12;
   const itimerval limit{{0, 0}, {static_cast<time_t>(most_s), 0}};
   ::setitimer(ITIMER_PROF, &limit, nullptr);
   ::alarm(kWaits * most_s);
@@ -29,8 +33,9 @@ void set_limit(unsigned most_s) {
 
 struct Watched::Shared {
   std::size_t size;
-  std::size_t executions;
+  std::size_t executions[kMostOutcomes];
   unsigned most_s;
+  bool is_complete;  // the work returned
   char input[kMostInput_B];
 };
 
@@ -49,18 +54,18 @@ void Watched::begin(const std::string& input, unsigned most_s) {
   set_limit(most_s);
 }
 
-void Watched::end() {
+void Watched::end(std::size_t outcome) {
   set_limit(0);
-  ++shared_->executions;
+  ++shared_->executions[outcome];
 }
 
 std::string Watched::run(const std::function<void()>& work, [[maybe_unused]] std::size_t most_memory_B) {
-  [[maybe_unused]] constexpr std::size_t kOfLibraries_B = 1UL << 29;  // Assumed: address space
+  shared_->is_complete = false;
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("no child process");
   if (child == 0) {
 #ifndef ROLLRIG_SANITIZED  // sanitizers map terabytes
-    const rlimit limit{most_memory_B + kOfLibraries_B, most_memory_B + kOfLibraries_B};
+    const rlimit limit{most_memory_B, most_memory_B};
     ::setrlimit(RLIMIT_AS, &limit);
 #endif
     std::signal(SIGALRM, SIG_DFL);
@@ -69,19 +74,31 @@ std::string Watched::run(const std::function<void()>& work, [[maybe_unused]] std
       work();
     } catch (const std::exception& error) {
       std::cerr << fmt::format("unexpected exception: {}\n", std::string(error.what()).substr(0, 500));
-      ::_exit(1);
+      ::_exit(kThrew);
     }
-    ::_exit(0);
+    shared_->is_complete = true;
+    ::_exit(0);  // 0, since a sanitizer replaces only this status by its own
   }
   int status = 0;
-  ::waitpid(child, &status, 0);
-  if (WIFEXITED(status)) return WEXITSTATUS(status) == 0 ? "" : "an unexpected exception";
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw std::runtime_error("the end of the child process is not known");
+  }
+  if (WIFEXITED(status)) {
+    const int exit_status = WEXITSTATUS(status);
+    if (exit_status == 0 && shared_->is_complete) return "";
+    return exit_status == kThrew ? "an unexpected exception" : fmt::format("an exit with status {}", exit_status);
+  }
   const int signal = WTERMSIG(status);
-  const bool is_late = signal == SIGPROF || signal == SIGALRM;
-  return is_late ? fmt::format("more than {} s", shared_->most_s) : fmt::format("signal {}", signal);
+  if (signal == SIGPROF) return fmt::format("more than {} s of CPU time", shared_->most_s);
+  if (signal == SIGALRM) return fmt::format("more than {} s of wall-clock time", kWaits * shared_->most_s);
+  return fmt::format("signal {}", signal);
 }
 
-std::size_t Watched::executions() const { return shared_->executions; }
+std::size_t Watched::executions() const {
+  return std::accumulate(std::begin(shared_->executions), std::end(shared_->executions), std::size_t{0});
+}
+
+std::size_t Watched::executions_with(std::size_t outcome) const { return shared_->executions[outcome]; }
 
 std::string Watched::last_input() const { return {shared_->input, shared_->size}; }
 
