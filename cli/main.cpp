@@ -32,8 +32,8 @@ constexpr const char* kFooter =
     "2 input or usage, 3 the run failed, 70 a mistake in rollrig itself,\n"
     "130 stopped by Ctrl-C. With 2, 3, 70 and 130 nothing is written, except\n"
     "for the points of a sweep that did not fail (3), what is done of a\n"
-    "campaign or of a sweep with --out (2, 3, 130), of several sets those\n"
-    "that could be diagnosed (2 or 3).\n";
+    "campaign or of a sweep with --out (2, 3, 130), and of several sets\n"
+    "those that could be diagnosed (2 or 3).\n";
 
 /// A command's own examples, below its help.
 void add_examples(CLI::App& app) {

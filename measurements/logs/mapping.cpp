@@ -199,7 +199,7 @@ RunPlan read_run_plan(const ConfigTable& table, const std::string& folder, const
   run.origin = table.origin;
   run.id = reader.text("id");
   if (run.id.empty() || run.id.front() == '.' || run.id.find_first_of("/\\\"") != std::string::npos) {
-    throw reader.problem("id", "a run's id names its file", "a name without / \\ and \", and without a point in front");
+    throw reader.problem("id", "a run's id names its file", "a name without / \\ and \", not starting with a dot");
   }
   if (boost::algorithm::to_lower_copy(run.id) == "marks") {
     throw reader.problem("id", "marks.csv is the file of what was not taken over", "another id");

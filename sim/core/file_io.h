@@ -71,15 +71,15 @@ std::string nearest_file(const std::string& path);
 std::string calc_sha256(const std::string& content);
 
 /// Text that is written beside its place and put there by commit(): standard output for `-`, a device such as
-/// /dev/null or a pipe, or a file, which then stands there whole. It keeps the permissions of the file that it
-/// replaces; where the path is a link, the file at its end is replaced. What is not committed goes with the object.
+/// /dev/null or a pipe, or a file, which then stands there whole. It keeps owner and permissions of the file that it
+/// replaces, as far as that is allowed; a link is replaced itself. What is not committed goes with the object.
 class StagedOutput {
  public:
   /// Whether a file that stands there already is replaced.
   enum class Existing { kReplace, kKeep };
 
   /// Writes a file beside its place, under a name that nobody can foresee. Throws InputError (no permission, no space,
-  /// no such folder, a broken link).
+  /// no such folder, a file that is open).
   StagedOutput(std::string path, std::string content, Existing existing = Existing::kReplace);
   ~StagedOutput();
   StagedOutput(StagedOutput&& other) noexcept;
@@ -95,8 +95,7 @@ class StagedOutput {
   void commit();
 
  private:
-  std::string path_;     // as given
-  std::string place_;    // the same, at the end of links
+  std::string path_;
   std::string content_;  // of what is direct
   std::string staging_;  // empty where there is none
   Existing existing_;

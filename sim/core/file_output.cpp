@@ -1,8 +1,10 @@
 // The writing half of file_io.h.
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -151,8 +153,12 @@ fs::path find_existing_ancestor(fs::path ancestor) {
 }
 
 bool is_staging(const fs::path& path) {
+  constexpr std::size_t kDigits = 16;
   const std::string name = path.filename().string();
-  return name.front() == '.' && name.find(".partial-") != std::string::npos;
+  const std::size_t digits = name.size() - std::min(kDigits, name.size());
+  constexpr const char* kMark = ".partial-";
+  return name.front() == '.' && name.find_first_not_of("0123456789abcdef", digits) == std::string::npos &&
+         digits >= std::strlen(kMark) && name.compare(digits - std::strlen(kMark), std::strlen(kMark), kMark) == 0;
 }
 
 /// Whether a folder can be replaced by another: it is empty, and not a mount point, the working folder or that of
@@ -192,20 +198,31 @@ bool may_replace(const std::string& path, const std::string& folder) {
   return (around.st_mode & S_ISVTX) == 0 || user == 0 || user == file.st_uid || user == around.st_uid;
 }
 
-/// The file at the end of links, where there is one. What is no file, such as a pipe, keeps its path.
-std::string follow_links(const std::string& path) {
+/// Throws InputError where a path stands for a file that a process has open, such as /dev/stdout of a command whose
+/// output goes to a file: that file cannot be replaced by another, and the link in /dev should not be.
+void require_no_open_file(const std::string& path) {
   std::error_code code;
-  if (!fs::is_symlink(path, code)) return path;
-  if (!fs::exists(path, code)) {
-    throw place_problem(fmt::format("'{}' is a broken symbolic link", path), path, "a file name");
+  if (!fs::is_regular_file(path, code)) return;
+  constexpr int kMostLinks = 40;  // as Linux follows
+  fs::path at = path;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(at, code); ++i) {
+    const fs::path folder = at.has_parent_path() ? at.parent_path() : fs::path(".");
+    struct statfs system {};
+    if (::statfs(folder.c_str(), &system) == 0 && system.f_type == PROC_SUPER_MAGIC) {
+      throw place_problem(fmt::format("'{}' stands for a file that is open already", path), path,
+                          "the name of that file, or - for standard output");
+    }
+    at = folder / fs::read_symlink(at, code);  // the latter alone where it is absolute
   }
-  if (!fs::is_regular_file(path, code)) return path;
-  const std::string folder = fs::path(path).parent_path().string();
-  if (folder == "/dev" || folder == "/dev/fd" || folder.rfind("/proc/", 0) == 0) {
-    throw place_problem(fmt::format("'{}' stands for a file that is open already", path), path,
-                        "the name of that file, or - for standard output");
-  }
-  return fs::canonical(path).string();
+}
+
+/// Gives a new file the owner and the permissions of the file that it replaces. Where the owner or the group cannot be
+/// kept, the group has no permissions.
+void keep_permissions(const std::string& path, const std::string& replaced) {
+  struct stat former {};
+  if (::lstat(replaced.c_str(), &former) != 0 || !S_ISREG(former.st_mode)) return;
+  const bool has_owner = ::chown(path.c_str(), former.st_uid, former.st_gid) == 0;
+  ::chmod(path.c_str(), former.st_mode & (has_owner ? 0777U : 0707U));
 }
 
 std::string folder_of(const std::string& path) {
@@ -235,8 +252,8 @@ void synchronize_folder(const std::string& folder) { synchronize_path(folder); }
 StagedOutput::StagedOutput(std::string path, std::string content, Existing existing)
     : path_(std::move(path)), existing_(existing) {
   std::error_code code;
-  place_ = path_ == "-" ? path_ : follow_links(path_);
-  const fs::file_status status = fs::status(place_, code);
+  require_no_open_file(path_);
+  const fs::file_status status = fs::status(path_, code);
   if (fs::is_directory(status) && path_ != "-") {
     throw place_problem(fmt::format("'{}' is a directory, not a file", path_), path_, "a file name");
   }
@@ -246,13 +263,11 @@ StagedOutput::StagedOutput(std::string path, std::string content, Existing exist
     return;
   }
   int descriptor = -1;
-  const fs::path place(place_);
+  const fs::path place(path_);
   staging_ = make_hidden(place.parent_path(), place.filename().string(), path_, [&descriptor](const char* tried) {
     return descriptor = ::open(tried, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kReadableByAll);
   });
   try {
-    // Some file systems have no permissions: then the file has theirs.
-    if (fs::is_regular_file(status)) ::fchmod(descriptor, static_cast<mode_t>(status.permissions()));
     write_descriptor(path_, descriptor, content, Durability::kNow);
   } catch (...) {
     ::unlink(staging_.c_str());  // the destructor does not run
@@ -262,7 +277,6 @@ StagedOutput::StagedOutput(std::string path, std::string content, Existing exist
 
 StagedOutput::StagedOutput(StagedOutput&& other) noexcept
     : path_(std::move(other.path_)),
-      place_(std::move(other.place_)),
       content_(std::move(other.content_)),
       staging_(std::move(other.staging_)),
       existing_(other.existing_),
@@ -297,19 +311,20 @@ void StagedOutput::commit() {
     return;
   }
   if (is_direct_) {
-    write_descriptor(path_, open_direct(place_), content_, Durability::kLater);
+    write_descriptor(path_, open_direct(path_), content_, Durability::kLater);
     return;
   }
+  keep_permissions(staging_, path_);
   if (is_appended_) synchronize_path(staging_);
   const bool keeps = existing_ == Existing::kKeep;
-  if ((keeps ? rename_to_free(staging_, place_) : std::rename(staging_.c_str(), place_.c_str())) != 0) {
+  if ((keeps ? rename_to_free(staging_, path_) : std::rename(staging_.c_str(), path_.c_str())) != 0) {
     if (keeps && errno == EEXIST) {
       throw place_problem(fmt::format("'{}' is there already", path_), path_, "another file, or --force to replace it");
     }
     throw write_problem(path_, errno);
   }
   staging_.clear();
-  synchronize_path(folder_of(place_));
+  synchronize_path(folder_of(path_));
 }
 
 void write_file_atomically(const std::string& path, const std::string& content) {
@@ -335,15 +350,15 @@ void require_writable(const std::string& path) {
     if (fs::is_directory(path)) {
       throw place_problem(fmt::format("'{}' is a directory, not a file", path), path, "a file name");
     }
-    const std::string place = follow_links(path);
-    const std::string folder = folder_of(place);
+    require_no_open_file(path);
+    const std::string folder = folder_of(path);
     if (!fs::is_directory(folder)) throw place_problem(fmt::format("no such folder '{}'", folder), path);
     // A file is replaced as a whole, which its folder must allow; what is no file (/dev/null) is written to as it is.
-    const bool is_replaced = !fs::exists(place) || fs::is_regular_file(place);
-    if (::access((is_replaced ? folder : place).c_str(), W_OK) != 0) {
+    const bool is_replaced = !fs::exists(path) || fs::is_regular_file(path);
+    if (::access((is_replaced ? folder : path).c_str(), W_OK) != 0) {
       throw place_problem(fmt::format("cannot write '{}': {}", path, std::strerror(errno)), path);
     }
-    if (is_replaced && !may_replace(place, folder)) {
+    if (is_replaced && !may_replace(path, folder)) {
       throw place_problem(fmt::format("cannot write '{}': it belongs to another user", path), path);
     }
   });

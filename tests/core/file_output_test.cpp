@@ -87,29 +87,40 @@ TEST_CASE("nothing follows a link that was planted under the name that is writte
   CHECK(read_text_file(base.file("folder/a")) == "new");
 }
 
-TEST_CASE("a file that is replaced keeps its permissions, and a link to it stays a link", "[fast]") {
+TEST_CASE("a file that is replaced keeps its permissions, also one that is written in pieces", "[fast]") {
   const TemporaryFolder base;
-  tests::write_file(base.file("private"), "old");
-  fs::permissions(base.file("private"), fs::perms(0600));
-  fs::create_symlink("private", base.file("link"));
-  require_writable(base.file("link"));
-  write_output(base.file("link"), "new");
-  CHECK(fs::is_symlink(base.file("link")));
-  CHECK(read_text_file(base.file("private")) == "new");
-  CHECK(mode_of(base.file("private")) == 0600);
-  CHECK(base.entry_count() == 2);
+  for (const unsigned mode : {0600U, 0444U}) {
+    tests::write_file(base.file("file"), "old");
+    fs::permissions(base.file("file"), fs::perms(mode));
+    StagedOutput output(base.file("file"), "one ");
+    output.append("two");
+    output.commit();
+    CHECK(read_text_file(base.file("file")) == "one two");
+    CHECK(mode_of(base.file("file")) == mode);
+    fs::remove(base.file("file"));
+  }
 }
 
-TEST_CASE("a broken link and an open file under /dev are no files to write", "[fast]") {
+TEST_CASE("a link is replaced, and what it points to stays", "[fast]") {
   const TemporaryFolder base;
-  fs::create_symlink("nowhere", base.file("link"));
-  CHECK_THROWS_WITH(require_writable(base.file("link")), Catch::Contains("broken symbolic link"));
-  CHECK_THROWS_WITH(write_output(base.file("link"), "new"), Catch::Contains("broken symbolic link"));
+  tests::write_file(base.file("mine"), "old");
+  fs::create_symlink("mine", base.file("link"));
+  write_output(base.file("link"), "new");
+  CHECK(read_text_file(base.file("mine")) == "old");
+  CHECK(!fs::is_symlink(base.file("link")));
+}
+
+TEST_CASE("a file that is open cannot be replaced through its link in /proc", "[fast]") {
+  const TemporaryFolder base;
   tests::write_file(base.file("open"), "old");
   const int descriptor = ::open(base.file("open").c_str(), O_WRONLY);
   REQUIRE(descriptor >= 0);
-  const std::string path = "/dev/fd/" + std::to_string(descriptor);
-  CHECK_THROWS_WITH(write_output(path, "new"), Catch::Contains("- for standard output"));
+  const std::string number = std::to_string(descriptor);
+  fs::create_symlink("/dev/fd/" + number, base.file("link"));
+  for (const std::string& path : {"/dev/fd/" + number, "/dev/./fd/" + number, base.file("link")}) {
+    CHECK_THROWS_WITH(require_writable(path), Catch::Contains("- for standard output"));
+    CHECK_THROWS_WITH(write_output(path, "new"), Catch::Contains("- for standard output"));
+  }
   ::close(descriptor);
   CHECK(read_text_file(base.file("open")) == "old");
 }

@@ -27,7 +27,7 @@ using namespace rollrig::fuzz;
 namespace {
 
 constexpr unsigned kMostTime_s = 20;
-constexpr std::size_t kMostMemory_B = 5UL << 29;  // Assumed: address space, a fifth of it for libraries
+constexpr std::size_t kMostMemory_B = 5UL << 29;  // Assumed: 2.5 GiB of address space, a fifth of it for libraries
 
 using Numbers = std::vector<double>;
 
