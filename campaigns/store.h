@@ -30,10 +30,9 @@ struct Record {
 /// A file of records that this process writes.
 ///
 /// It is kept as a write-ahead log in exclusive locking mode. A record is safe from a kill of the process once write()
-/// has returned. It is safe from a loss of power once write() has returned a second or more after the disk was last
-/// written to, or after close(): a record that follows another one sooner waits for the next one. No memory is shared
-/// with other processes, so the file may be on a network drive that supports locks. A second process that opens it is
-/// refused.
+/// has returned. The disk is written to at most once a second, by write(), and by close(): a loss of power can lose the
+/// records since then. No memory is shared with other processes, so the file may be on a network drive that supports
+/// locks. A second process that opens it is refused.
 /// Source   sqlite.org/wal.html, "Use of WAL Without Shared-Memory"
 class Store {
  public:

@@ -17,6 +17,7 @@
 #include <iostream>
 #include <random>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
@@ -153,12 +154,12 @@ fs::path find_existing_ancestor(fs::path ancestor) {
 }
 
 bool is_staging(const fs::path& path) {
+  constexpr std::string_view kMark = ".partial-";  // then the digits of make_hidden()
   constexpr std::size_t kDigits = 16;
   const std::string name = path.filename().string();
-  const std::size_t digits = name.size() - std::min(kDigits, name.size());
-  constexpr const char* kMark = ".partial-";
-  return name.front() == '.' && name.find_first_not_of("0123456789abcdef", digits) == std::string::npos &&
-         digits >= std::strlen(kMark) && name.compare(digits - std::strlen(kMark), std::strlen(kMark), kMark) == 0;
+  const std::size_t mark = name.rfind(kMark);
+  return name.front() == '.' && mark != std::string::npos && mark + kMark.size() + kDigits == name.size() &&
+         name.find_first_not_of("0123456789abcdef", mark + kMark.size()) == std::string::npos;
 }
 
 /// Whether a folder can be replaced by another: it is empty, and not a mount point, the working folder or that of
