@@ -132,8 +132,13 @@ SQLite::Database open_unchanged(const std::string& path) {
   return SQLite::Database("file:" + escaped + "?immutable=1", SQLite::OPEN_READONLY | SQLite::OPEN_URI, kPatience_ms);
 }
 
-/// Opens a file to read it, beside others that read it. What a killed process has left in the log is
-/// written into the file first.
+/// Whether a file could not be written for want of room: the disk is full, or a quota is.
+bool is_out_of_room(const SQLite::Exception& error) {
+  return error.getErrorCode() == SQLITE_FULL || error.getExtendedErrorCode() == SQLITE_IOERR_WRITE;
+}
+
+/// Opens a file to read it, beside others that read it. What a killed process has left in the log is written into the
+/// file first; where there is no room for that, it is read from the log, and others have to wait meanwhile.
 SQLite::Database open_to_read(const std::string& path) {
   if (!is_there(path)) {
     throw InputError({"this file of results is no longer there: another process has merged or removed it", path, 0, "",
@@ -143,7 +148,12 @@ SQLite::Database open_to_read(const std::string& path) {
   if (has_its_log || is_marked_as_logged(path)) {
     try {
       SQLite::Database database = open_alone(path, SQLite::OPEN_READWRITE);
-      checkpoint_log(database);
+      try {
+        checkpoint_log(database);
+      } catch (const SQLite::Exception& error) {
+        if (!is_out_of_room(error)) throw;
+        return database;
+      }
     } catch (const SQLite::Exception& error) {
       if (has_its_log || error.getErrorCode() == SQLITE_BUSY) throw;
       note_as_read(path);

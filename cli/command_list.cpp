@@ -19,7 +19,18 @@ Json list_everything() {
   };
   add("scenarios", list_scenarios());
   add("effects", list_effects());
-  for (const std::string& folder : asset_folders()) json[folder] = list_assets(folder);
+  bool has_assets = false;
+  for (const std::string& folder : asset_folders()) {
+    json[folder] = list_assets(folder);
+    has_assets = has_assets || !json[folder].empty();
+  }
+  if (!has_assets) {
+    const std::string folder = find_assets_folder();
+    throw InputError({fmt::format("there are no assets in '{}'", folder), folder, 0, "ROLLRIG_ASSETS", folder,
+                      "a folder that has tires/*.toml, rigs/*.toml and so on; without the variable, rollrig looks "
+                      "beside the program",
+                      ""});
+  }
   return json;
 }
 

@@ -59,7 +59,8 @@ int regress_command(const RegressOptions& options) {
 void add_regress_command(CLI::App& app, Action& action) {
   const auto [command, options] = add_command<RegressOptions>(
       app, action, "regress", "Rerun all regression scenarios against their goldens", &regress_command);
-  command->add_option("folder", options->folder, "Folder of run files [assets/regression]");
+  command->add_option("folder", options->folder, "Folder of run files [assets/regression]")
+      ->check([](const std::string& folder) { return folder.empty() ? "the name of a folder is empty" : ""; });
   command->add_flag("--update", options->update, "Write goldens that differ, are missing or cannot be read");
   add_threads(*command, options->threads);
   options->output.add_to(*command, "File for the comparison, - for standard output");

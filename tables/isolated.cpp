@@ -1,20 +1,27 @@
 #include "tables/isolated.h"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <new>
 #include <stdexcept>
+#include <utility>
+
+#include <boost/scope_exit.hpp>
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 
 namespace rollrig::tables {
 namespace {
@@ -123,6 +130,13 @@ void limit_memory() {
 #endif
 }
 
+/// A damaged file may also keep a library busy forever.
+void limit_time() {
+  constexpr rlim_t kMost_s = 600;  // Assumed: of the processor; the largest table takes less than a tenth
+  const rlimit limit{kMost_s, kMost_s};
+  ::setrlimit(RLIMIT_CPU, &limit);
+}
+
 void require_small(const Columns& columns, const std::string& path) {
   std::uintmax_t bytes = 0;
   for (const Column& column : columns) bytes += column.size() * sizeof(double);
@@ -134,7 +148,9 @@ void require_small(const Columns& columns, const std::string& path) {
                             int descriptor) {
   Writer out;
   try {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     limit_memory();
+    limit_time();
     const Columns columns = read(path);
     require_small(columns, path);
     write_columns(columns, out);
@@ -149,10 +165,17 @@ void require_small(const Columns& columns, const std::string& path) {
   ::_exit(0);
 }
 
+/// All that the child tells. Throws Interrupted.
 std::string receive(int descriptor) {
+  constexpr int kBetweenLooks_ms = 50;  // at whether Ctrl-C came
   std::string bytes;
   std::array<char, 65536> part;
   for (;;) {
+    throw_if_interrupted();
+    struct pollfd in {
+      descriptor, POLLIN, 0
+    };
+    if (::poll(&in, 1, kBetweenLooks_ms) == 0) continue;
     const ssize_t n = ::read(descriptor, part.data(), part.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return bytes;
@@ -194,11 +217,17 @@ Columns read_isolated(const std::string& path, const std::function<Columns(const
   }
   if (child == 0) carry_out(path, read, ends[1]);
   ::close(ends[1]);
-  const std::string bytes = receive(ends[0]);
-  ::close(ends[0]);
-  ::waitpid(child, nullptr, 0);
+  std::string bytes;
+  {
+    BOOST_SCOPE_EXIT_ALL(&) {
+      ::close(ends[0]);
+      ::kill(child, SIGKILL);  // where it has not ended, after Ctrl-C
+      ::waitpid(child, nullptr, 0);
+    };
+    bytes = receive(ends[0]);
+  }
   try {
-    return understand(path, Reader(bytes));
+    return understand(path, Reader(std::move(bytes)));
   } catch (const std::out_of_range&) {
     throw InputError({"a damaged file", path, 0, "", "", "a whole file, as its program wrote it", ""});
   }

@@ -8,8 +8,9 @@
 
 namespace rollrig::tables {
 
-/// What `read` gives, called in a child process. Throws the InputError that it throws, one for a damaged file where the
-/// process does not come to its end, and one where the values take more than kLargestTable_bytes.
+/// What `read` gives, called in a child process. Throws the InputError that `read` throws; InputError for a damaged file
+/// where the child crashes or takes more than 10 minutes of processor time; InputError where the values take more than
+/// kLargestTable_bytes; Interrupted.
 /// Checked  tests/tables/log_table_test.cpp
 Columns read_isolated(const std::string& path, const std::function<Columns(const std::string&)>& read);
 

@@ -21,11 +21,12 @@ std::string format_problem(const InputProblem& problem) {
 }  // namespace
 
 std::vector<ProblemPart> list_parts(const InputProblem& problem) {
+  constexpr std::size_t kLongestValue = 1000;  // Assumed: characters; longer than any path that people use
   const std::string where =
       problem.line > 0 && !problem.file.empty() ? fmt::format("{}, line {}", problem.file, problem.line) : problem.file;
   std::vector<ProblemPart> parts{{"where", where, true},
                                  {"key", problem.key},
-                                 {"value", problem.value, true},
+                                 {"value", shorten(problem.value, kLongestValue), true},
                                  {"allowed", problem.allowed},
                                  {"nearest", problem.nearest}};
   parts.erase(std::remove_if(parts.begin(), parts.end(), [](const ProblemPart& part) { return part.content.empty(); }),

@@ -226,6 +226,14 @@ void keep_permissions(const std::string& path, const std::string& replaced) {
   ::chmod(path.c_str(), former.st_mode & (has_owner ? 0777U : 0707U));
 }
 
+/// The permissions with which to make a file that will take the place of another. What not everybody may read of the
+/// other, this user alone may read of the new one, until keep_permissions().
+mode_t choose_first_permissions(const std::string& replaced) {
+  struct stat former {};
+  if (::lstat(replaced.c_str(), &former) != 0 || !S_ISREG(former.st_mode)) return kReadableByAll;
+  return (former.st_mode & S_IROTH) != 0 ? kReadableByAll : S_IRUSR | S_IWUSR;
+}
+
 std::string folder_of(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
@@ -265,8 +273,9 @@ StagedOutput::StagedOutput(std::string path, std::string content, Existing exist
   }
   int descriptor = -1;
   const fs::path place(path_);
-  staging_ = make_hidden(place.parent_path(), place.filename().string(), path_, [&descriptor](const char* tried) {
-    return descriptor = ::open(tried, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kReadableByAll);
+  const mode_t permissions = choose_first_permissions(path_);
+  staging_ = make_hidden(place.parent_path(), place.filename().string(), path_, [&](const char* tried) {
+    return descriptor = ::open(tried, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, permissions);
   });
   try {
     write_descriptor(path_, descriptor, content, Durability::kNow);

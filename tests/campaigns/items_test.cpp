@@ -1,9 +1,12 @@
 // Items: each once, whoever carries them out and however often that is interrupted.
 #include "campaigns/items.h"
 
+#include <sys/resource.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -38,6 +41,27 @@ class FakeItems : public ItemList {
  private:
   int most_;
   mutable std::atomic<int> carried_out_{0};
+};
+
+/// As long as the object is, this process can write nothing into files, as where the disk is full.
+class NoRoomForFiles {
+ public:
+  NoRoomForFiles() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &none);
+  }
+  ~NoRoomForFiles() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  NoRoomForFiles(const NoRoomForFiles&) = delete;
+  NoRoomForFiles& operator=(const NoRoomForFiles&) = delete;
+
+ private:
+  using Handler = void (*)(int);
+  rlimit before_{};
+  Handler handler_;
 };
 
 /// All records as one text.
@@ -276,6 +300,33 @@ TEST_CASE("a file of a process that was killed as it closed it is read, and its 
   CHECK(file.get() == 1);
   CHECK(!std::filesystem::exists(path + "-wal"));
   CHECK(!std::filesystem::exists(path + "-shm"));
+}
+
+TEST_CASE("where the disk is full, what a killed process has left is counted, and stays", "[fast]") {
+  const TemporaryFolder at;
+  const TemporaryFolder killed;
+  const CampaignFolder folder{killed.path(), "test", 11};
+  const std::string path = folder.file_of({1, 1});
+  {
+    const std::string written = at.file("results_0001_of_0001.sqlite");
+    Store store(written, "test");
+    store.write({3, "identity", 1, "{}", ""});
+    store.write({4, "identity", 1, "", "failed"});
+    for (const char* end : {"", "-wal"}) std::filesystem::copy_file(written + end, path + end);
+  }
+  const auto log_bytes = std::filesystem::file_size(path + "-wal");
+  CHECK(log_bytes > 0);
+  {
+    const NoRoomForFiles full;
+    const FolderState state = read_state(folder, 50);
+    CHECK(state.tally.done == 2);
+    CHECK(state.tally.failed == 1);
+    CHECK(state.running.empty());
+    CHECK_THROWS_AS(Store(path, "test").write({5, "identity", 1, "{}", ""}), rollrig::InputError);
+  }
+  CHECK(std::filesystem::file_size(path + "-wal") >= log_bytes);
+  CHECK(read_state(folder, 50).tally.done == 2);
+  CHECK(!std::filesystem::exists(path + "-wal"));
 }
 
 TEST_CASE("a file that has a further item is not removed", "[slow]") {

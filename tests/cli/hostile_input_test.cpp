@@ -115,9 +115,9 @@ TEST_CASE("names that lead nowhere are errors of the input", "[slow]") {
   fs::create_symlink("loop.toml", folder.file("loop.toml"));
   check_refused(run_program("run iso_28580 --tire " + long_name, folder.path()), "unknown tire");
   check_refused(run_program("describe " + long_name, folder.path()), "");
-  for (const char* command : {"run iso_28580 --tire ./", "run ./", "fit road-load ./", "validate ./", "diagnose ./",
-                              "fit tire ./", "import --guess ./", "export --mat x.mat ./", "compare a50 ./",
-                              "regress ./"}) {
+  for (const char* command :
+       {"run iso_28580 --tire ./", "run ./", "fit road-load ./", "validate ./", "diagnose ./", "fit tire ./",
+        "import --guess ./", "export --mat x.mat ./", "compare a50 ./", "regress ./"}) {
     const bool is_import = std::string(command).find("import") == 0;
     const std::string rest = is_import ? " --tire a50 --rig drum_2m --out set" : "";
     INFO(command);
@@ -174,5 +174,11 @@ TEST_CASE("a wrong ROLLRIG_ASSETS is named", "[fast]") {
   for (const char* folder : {"/nowhere", "/tmp"}) {
     const auto run = run_program("run iso_28580 --tire a50", "/tmp", std::string("env ROLLRIG_ASSETS=") + folder);
     check_refused(run, std::string("the folder '") + folder + "' of the variable ROLLRIG_ASSETS has no tires");
+    check_refused(run_program("list", "/tmp", std::string("env ROLLRIG_ASSETS=") + folder),
+                  std::string("there are no assets in '") + folder + "'");
   }
+}
+
+TEST_CASE("an empty name of a folder does not stand for the folder of all regression runs", "[fast]") {
+  check_refused(run_program("regress ''", "/tmp"), "the name of a folder is empty");
 }

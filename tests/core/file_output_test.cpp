@@ -94,6 +94,9 @@ TEST_CASE("a file that is replaced keeps its permissions, also one that is writt
     fs::permissions(base.file("file"), fs::perms(mode));
     StagedOutput output(base.file("file"), "one ");
     output.append("two");
+    for (const fs::directory_entry& entry : fs::directory_iterator(base.path())) {
+      if (mode == 0600) CHECK(mode_of(entry.path()) == 0600);  // also the new content is for nobody else to read
+    }
     output.commit();
     CHECK(read_text_file(base.file("file")) == "one two");
     CHECK(mode_of(base.file("file")) == mode);

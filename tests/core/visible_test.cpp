@@ -26,6 +26,14 @@ TEST_CASE("control characters are written out, layout and other letters stay", "
   CHECK(show_controls(show_controls("\x1b\n")) == "\\x1b\n");
 }
 
+TEST_CASE("of a value that is long beyond reason, an error shows the beginning", "[fast]") {
+  const InputProblem problem{"no number", "set.toml", 3, "load_N", std::string(100'000, '1'), "a number", ""};
+  for (const std::string& text : {format_error("error: ", problem), std::string(InputError(problem).what())}) {
+    CHECK(text.size() < 2000);
+    CHECK_THAT(text, Catch::Contains("1111...") && Catch::Contains("a number"));
+  }
+}
+
 TEST_CASE("errors, wrapped text and tables hold no control character of a name", "[fast]") {
   const std::string name = "a\x1b[2J\nerror: forged\r";
   const std::string shown = "a\\x1b[2J\\nerror: forged\\r";

@@ -1,12 +1,18 @@
 // Logs of other formats are read as the same columns, and damaged ones are refused.
 #include "tables/log_table.h"
 
+#include <sys/wait.h>
+
 #include <catch2/catch.hpp>
+#include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <thread>
 
 #include "build_paths.h"
 #include "exports/tree.h"
+#include "include/rollrig/progress.h"
 #include "sim/core/error.h"
 #include "tables/hdf5_handle.h"
 #include "tables/isolated.h"
@@ -154,6 +160,20 @@ TEST_CASE("a reader that asks for more memory than any table takes is stopped", 
   CHECK_THROWS_WITH(tables::read_isolated("some.mat", read_too_much), Catch::Contains("is too large"));
 }
 #endif
+
+TEST_CASE("a reader that does not come to its end is stopped by Ctrl-C, and its process ends", "[fast]") {
+  const auto wait_for_long = [](const std::string&) {
+    std::this_thread::sleep_for(std::chrono::minutes(5));
+    return tables::Columns{};
+  };
+  const auto start = std::chrono::steady_clock::now();
+  request_interrupt();
+  CHECK_THROWS_AS(tables::read_isolated("some.mat", wait_for_long), Interrupted);
+  clear_interrupt();
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::minutes(1));
+  CHECK(::waitpid(-1, nullptr, WNOHANG) == -1);
+  CHECK(errno == ECHILD);
+}
 
 TEST_CASE("a column that is not there is named beside those that are", "[fast]") {
   const TemporaryFolder folder;
