@@ -47,15 +47,15 @@ bool can_lock_in(const std::string& folder) {
   return is_locked;
 }
 
-/// Calls `use`; what goes wrong with the file is told as an error of it. `busy` says what to do where another process
-/// writes the file.
+/// Calls `use`, and turns an error of SQLite into an InputError about the file. `busy` says what the user can do while
+/// another process writes the file.
 template <class Use>
 auto with_file(const std::string& path, const char* busy, const Use& use) {
   try {
     return use();
   } catch (const SQLite::Exception& error) {
     const int code = error.getErrorCode();
-    std::string what = fmt::format("cannot use the file of results: {}", error.what());
+    std::string what = fmt::format("cannot use this results file: {}", error.what());
     std::string allowed = "a file that rollrig campaign has written, in a folder that can be written to";
     if (code == SQLITE_BUSY) {
       const std::string folder = std::filesystem::path(path).parent_path().string();
@@ -63,10 +63,10 @@ auto with_file(const std::string& path, const char* busy, const Use& use) {
         throw InputError({"the drive of the campaign's folder does not lock files", folder, 0, "", "",
                           "a folder on a drive with locks: a local one, or NFS mounted with locks", ""});
       }
-      throw FileInUse({"another process writes this file of results", path, 0, "", "", busy, ""});
+      throw FileInUse({"another process is writing this results file", path, 0, "", "", busy, ""});
     }
     if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) {
-      what = "this is no file of a campaign's results, or it is damaged";
+      what = "this is not a results file of a campaign, or it is damaged";
       allowed = "a file that rollrig campaign has written; without it, its items are carried out again";
     } else if (code == SQLITE_FULL) {
       allowed = "room on the disk; what was written before is safe";
@@ -102,8 +102,8 @@ void checkpoint_log(SQLite::Database& database) {
 /// Whether a file has a log: a process writes it, or was killed as it did.
 bool has_log(const std::string& path) { return is_there(path + "-wal") || is_there(path + "-journal"); }
 
-/// Whether the header of a file says that it has a log, as where a process was killed between the removal of the log
-/// and that of the mark.
+/// Whether the header of a file says that it has a log. It may say so without a log: a process can be killed after it
+/// has removed the log and before it has changed the header.
 /// Source  the file format of SQLite, 1.3.3: byte 18 is 2 then
 bool is_marked_as_logged(const std::string& path) {
   constexpr std::streamoff kWriteVersion = 18;
@@ -112,8 +112,8 @@ bool is_marked_as_logged(const std::string& path) {
   return in.get() == 2;
 }
 
-/// Whether another process writes a file, or looks at this moment whether one does. Also writes the log that a killed
-/// process has left into the file.
+/// Whether another process writes a file, or is checking at this moment whether one does. Also writes the log that a
+/// killed process has left into the file.
 bool is_locked(const std::string& path) {
   if (!has_log(path)) return false;
   try {
@@ -141,8 +141,8 @@ bool is_out_of_room(const SQLite::Exception& error) {
 /// file first; where there is no room for that, it is read from the log, and others have to wait meanwhile.
 SQLite::Database open_to_read(const std::string& path) {
   if (!is_there(path)) {
-    throw InputError({"this file of results is no longer there: another process has merged or removed it", path, 0, "",
-                      "", "the same command once more", ""});
+    throw InputError({"this results file no longer exists: another process has merged or removed it", path, 0, "", "",
+                      "the same command once more", ""});
   }
   const bool has_its_log = has_log(path);
   if (has_its_log || is_marked_as_logged(path)) {
@@ -169,16 +169,16 @@ SQLite::Database open_to_read(const std::string& path) {
 bool has_tables(SQLite::Database& database, const std::string& path, const std::string& definition) {
   if (!database.tableExists("campaign")) {
     if (database.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) return false;
-    throw InputError({"this is no file of a campaign's results", path, 0, "", "",
-                      "a file that rollrig campaign has written, or none at this place", ""});
+    throw InputError({"this is not a results file of a campaign", path, 0, "", "",
+                      "a file that rollrig campaign has written; or move this one away", ""});
   }
   SQLite::Statement query(database, "SELECT definition FROM campaign");
   if (query.executeStep()) {
     const std::string stored = query.getColumn(0).getString();
     if (stored == definition || calc_sha256(stored) == definition) return true;  // older files hold the whole text
   }
-  throw InputError(
-      {"the results are those of another campaign", path, 0, "", "", "results of the campaign.json beside them", ""});
+  throw InputError({"these are the results of another campaign", path, 0, "", "",
+                    "results of the campaign whose campaign.json is in the same folder", ""});
 }
 
 void make_tables(SQLite::Database& database, const std::string& definition) {

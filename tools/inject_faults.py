@@ -8,9 +8,12 @@ its outputs must be whole, with the bytes of the undisturbed run, or absent; the
 (docs/formats.md); and the same command, given again, must succeed with the same bytes. A command that takes more than
 10 minutes is killed, and counts as wrong.
 
-Not all commands that write are in. "campaign new" refuses to be given again. "campaign run" and "campaign merge" change
-a folder that is there. Also left out: other commands of "campaign" except "export", other kinds of "fit", "new" and
-"export", "regress --update", "serve", and rollrig_validation.
+"campaign run" and "campaign merge" change a folder that is there: they are killed, stopped and left without room. After
+each of these, "campaign status" must count no more than there is, and the same command, given again, must lead to the
+exported table of an undisturbed campaign.
+
+Not all commands that write are in. Left out are other kinds of "fit", "new" and "export", "campaign new-diagnoses",
+"regress --update", "serve", and rollrig_validation.
 
 --short takes the quick commands alone. Faults that this machine cannot have (no root for a small disk, no German
 locale) are skipped, which is said. Exit status: 1 where something was wrong.
@@ -18,6 +21,7 @@ locale) are skipped, which is said. Exit status: 1 where something was wrong.
 import argparse
 import contextlib
 import hashlib
+import json
 import os
 import random
 import shutil
@@ -36,11 +40,12 @@ MOST_TIME_S = 600.0  # of a command
 class Command:
     """A command with its outputs, which lie in the folder {o} of its arguments."""
 
-    def __init__(self, name, arguments, outputs, quick=True, has_threads=False):
+    def __init__(self, name, arguments, outputs, quick=True, has_threads=False, refuses_again=False):
         self.name, self.arguments, self.outputs = name, arguments, outputs
         self.quick, self.has_threads = quick, has_threads
+        self.refuses_again = refuses_again  # where its outputs are there
         self.takes_force = arguments[0] in ("run", "sweep", "fit", "import", "new", "plan", "diagnose", "align",
-                                            "compare")
+                                            "compare") and not refuses_again
         self.reference, self.takes_s = None, 0.0
 
     def words(self, folder, outputs=None, force=False):
@@ -54,7 +59,7 @@ class Command:
 
     def refuses_existing(self):
         """Whether the second of two processes at a time is refused."""
-        return self.has_folder() or self.arguments[0] == "new"
+        return self.has_folder() or self.arguments[0] == "new" or self.refuses_again
 
 
 def make_commands(inputs):
@@ -84,6 +89,8 @@ def make_commands(inputs):
                           "{o}/report.html"], ["out", "align.json", "align.html", "report.html"], has_threads=True),
         Command("compare", ["compare", "a40", "a50", "--out", "{o}/out", "--json", "{o}/compare.json", "--html",
                             "{o}/compare.html"], ["out", "compare.json", "compare.html"], has_threads=True),
+        Command("campaign new", ["campaign", "new", "{o}/campaign", "skim", "--tire", "a50", "--vary",
+                                 "load_N=4000:6000:500"], ["campaign"], refuses_again=True),
         Command("campaign export", ["campaign", "export", inputs + "/campaign", "--csv", "{o}/all.csv", "--mat",
                                     "{o}/all.mat", "--hdf5", "{o}/all.h5"], ["all.csv", "all.mat", "all.h5"]),
         Command("convert", ["convert", "--force", "32", "--from-drum", "2.0", "--to-drum", "1.2", "--tire", "a50",
@@ -182,7 +189,8 @@ class Faults:
         """The same command again, over what is there."""
         there = "whole" in self.find_states(command, folder).values()
         status, errors = self.run(command.words(folder, force=there))
-        self.check(fault, command, status == DONE, "given again it exits with %d: %s" % (status, errors))
+        expected = WRONG if there and command.refuses_again else DONE
+        self.check(fault, command, status == expected, "given again it exits with %d: %s" % (status, errors))
         self.check_states(fault, command, folder, ["whole"])
 
     def make_reference(self, command):
@@ -244,7 +252,8 @@ class Faults:
             yield folder, is_mounted
         finally:
             if is_mounted:
-                subprocess.call(["umount", folder])
+                if subprocess.call(["umount", folder]) != 0:
+                    self.wrong.append("%s cannot be unmounted" % folder)
             os.chmod(folder, 0o755)
             shutil.rmtree(folder)
 
@@ -352,6 +361,76 @@ class Faults:
             self.check_no_leftover(fault, command, folder)
             shutil.rmtree(folder)
 
+    def copy_campaign(self, action, campaigns, folder):
+        """A campaign to be disturbed by a command, which is returned."""
+        shutil.copytree(os.path.join(campaigns, action), os.path.join(folder, "campaign"))
+        return Command("campaign " + action, ["campaign", action, "{o}/campaign", "--quiet"], [])
+
+    def export_campaign(self, folder):
+        """SHA-256 of the table of a campaign."""
+        status, errors = self.run(["campaign", "export", folder + "/campaign", "--csv", folder + "/all.csv", "--quiet"])
+        return hash_output(folder + "/all.csv") if status == DONE else errors
+
+    def check_campaign(self, fault, command, folder, items, table):
+        """Its state, then the same command again."""
+        status, errors = self.run(["campaign", "status", folder + "/campaign", "--json", folder + "/state.json"])
+        self.check(fault, command, status == DONE, "status exits with %d: %s" % (status, errors))
+        if status == DONE:
+            with open(folder + "/state.json") as file:
+                done = json.load(file)["done"]
+            self.check(fault, command, done == items if command.name == "campaign merge" else 0 <= done <= items,
+                       "status counts %d of %d" % (done, items))
+        status, errors = self.run(command.words(folder))
+        self.check(fault, command, status == DONE, "given again it exits with %d: %s" % (status, errors))
+        self.check(fault, command, self.export_campaign(folder) == table, "the table is another one")
+        left = [name for name in os.listdir(folder + "/campaign") if name.endswith(("-wal", "-shm", "-journal",
+                                                                                    ".progress"))]
+        self.check(fault, command, not left, "left %s" % left)
+
+    def disturb_campaigns(self, campaigns, items, kills):
+        """`campaigns` holds a campaign in each of the states before "run" and "merge"."""
+        for action in ("run", "merge"):
+            folder = self.new_folder()
+            command = self.copy_campaign(action, campaigns, folder)
+            start = time.time()
+            status, errors = self.run(command.words(folder))
+            command.takes_s = time.time() - start
+            if status != DONE:
+                sys.exit("%s does not even run undisturbed: exit %d\n%s" % (command.name, status, errors))
+            table = self.export_campaign(folder)
+            shutil.rmtree(folder)
+            signals = [signal.SIGKILL] * kills + [signal.SIGINT, signal.SIGTERM]
+            for number in signals:
+                fault = "kill -9" if number == signal.SIGKILL else signal.Signals(number).name
+                folder = self.new_folder()
+                command.arguments = self.copy_campaign(action, campaigns, folder).arguments
+                process = self.start(command.words(folder))
+                time.sleep(self.draw_moment_s(command))
+                process.send_signal(number)
+                status, errors = self.finish(process)
+                self.check(fault, command, status in (DONE, STOPPED, -number), "exits with %d: %s" % (status, errors))
+                self.check_campaign(fault, command, folder, items, table)
+                shutil.rmtree(folder)
+            self.leave_campaign_no_room(command, action, campaigns, items, table)
+
+    def leave_campaign_no_room(self, command, action, campaigns, items, table):
+        fault = "full disk"
+        for room_kB in (0, 4, 12, 40):
+            with self.mounted_folder("size=4m") as (folder, is_mounted):
+                if not is_mounted:
+                    return self.skip(fault, "not root, or no tmpfs can be mounted")
+                self.copy_campaign(action, campaigns, folder)
+                filler = os.path.join(folder, "filler")
+                with open(filler, "wb") as file:
+                    disk = os.statvfs(folder)
+                    file.write(b"0" * max(0, disk.f_bavail * disk.f_frsize - 1024 * room_kB))
+                status, errors = self.run(command.words(folder))
+                self.check(fault, command, status in (DONE, WRONG), "exits with %d: %s" % (status, errors))
+                status, errors = self.run(["campaign", "status", folder + "/campaign", "--quiet"])
+                self.check(fault, command, status == DONE, "status exits with %d: %s" % (status, errors))
+                os.remove(filler)
+                self.check_campaign(fault, command, folder, items, table)
+
     def skip(self, fault, why):
         if (fault, why) not in self.skipped:
             self.skipped.append((fault, why))
@@ -378,10 +457,20 @@ def main():
         faults = Faults(options.program, options.seed, base)
         inputs = os.path.join(base, "inputs")
         os.mkdir(inputs)
-        faults.run(["run", "skim", "--tire", "a50", "--sensors", "source", "--write-set", inputs + "/set", "--quiet"])
-        faults.run(["campaign", "new", inputs + "/campaign", "skim", "--tire", "a50", "--vary", "load_N=4000:6000:500",
-                    "--fidelity", "quasi_static", "--quiet"])
-        faults.run(["campaign", "run", inputs + "/campaign", "--quiet"])
+        campaigns, loads, items = os.path.join(base, "campaigns"), "load_N=4000:6000:50", 41
+        os.mkdir(campaigns)
+        for words in (
+                ["run", "skim", "--tire", "a50", "--sensors", "source", "--write-set", inputs + "/set", "--quiet"],
+                ["campaign", "new", inputs + "/campaign", "skim", "--tire", "a50", "--vary", "load_N=4000:6000:500",
+                 "--fidelity", "quasi_static", "--quiet"],
+                ["campaign", "run", inputs + "/campaign", "--quiet"],
+                ["campaign", "new", campaigns + "/run", "skim", "--tire", "a50", "--vary", loads, "--quiet"],
+                ["campaign", "new", campaigns + "/merge", "skim", "--tire", "a50", "--vary", loads, "--quiet"],
+                ["campaign", "run", campaigns + "/merge", "--shard", "1/2", "--quiet"],
+                ["campaign", "run", campaigns + "/merge", "--shard", "2/2", "--quiet"]):
+            status, errors = faults.run(words)
+            if status != DONE:
+                sys.exit("%s does not even run undisturbed: exit %d\n%s" % (" ".join(words), status, errors))
         commands = [command for command in make_commands(inputs) if command.quick or not options.short]
         for command in commands:
             faults.make_reference(command)
@@ -390,6 +479,7 @@ def main():
             was_met, was_whole = faults.kill(commands[i % len(commands)])
             met += was_met
             whole += was_whole
+        faults.disturb_campaigns(campaigns, items, max(2, options.kills // 10))
         locales = make_locale(base)
         if locales is None:
             faults.skip("German locale", "it is not installed, and localedef cannot make it")
