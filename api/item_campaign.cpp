@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <memory>
 
 #include "api/campaign_definition.h"
 #include "api/campaign_items.h"
@@ -147,12 +148,22 @@ CampaignState ItemCampaign::merge() const {
   // A file that an interrupted merge has left may be used again: its records are of this campaign.
   const std::string partial = merged + ".partial";
   std::vector<bool> is_merged(data_->items->count());
-  campaigns::Store store(partial, data_->folder.definition);  // which only one merge at a time can open
-  campaigns::read_records(files, data_->folder.definition, [&](const campaigns::Record& record) {
-    store.write(record);
-    if (record.item < is_merged.size()) is_merged[record.item] = true;
-  });
-  store.close();
+  std::unique_ptr<campaigns::Store> store;
+  try {
+    store = std::make_unique<campaigns::Store>(partial, data_->folder.definition);
+    campaigns::read_records(files, data_->folder.definition, [&](const campaigns::Record& record) {
+      store->write(record);
+      if (record.item < is_merged.size()) is_merged[record.item] = true;
+    });
+    store->close();
+  } catch (const campaigns::FileInUse&) {  // it may be that of another merge, where the drive has no folder locks
+    throw;
+  } catch (...) {  // such as on a full disk, which has no room for a half file
+    store.reset();
+    std::error_code ignored;
+    for (const char* end : {"", "-wal", "-journal"}) fs::remove(partial + end, ignored);
+    throw;
+  }
   fs::rename(partial, merged);
   synchronize_folder(data_->folder.path);  // before the files that it replaces go
   const auto has = [&is_merged](std::size_t item) { return item < is_merged.size() && is_merged[item]; };

@@ -426,6 +426,8 @@ class Faults:
                     file.write(b"0" * max(0, disk.f_bavail * disk.f_frsize - 1024 * room_kB))
                 status, errors = self.run(command.words(folder))
                 self.check(fault, command, status in (DONE, WRONG), "exits with %d: %s" % (status, errors))
+                left = [name for name in os.listdir(folder + "/campaign") if ".partial" in name]
+                self.check(fault, command, not left, "left %s" % left)
                 status, errors = self.run(["campaign", "status", folder + "/campaign", "--quiet"])
                 self.check(fault, command, status == DONE, "status exits with %d: %s" % (status, errors))
                 os.remove(filler)
