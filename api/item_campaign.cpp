@@ -145,9 +145,10 @@ CampaignState ItemCampaign::merge() const {
     throw InputError({"a process writes results of this campaign now", running.front(), 0, "", "",
                       "to wait until it has ended; see rollrig campaign status", ""});
   }
-  // A file that an interrupted merge has left may be used again: its records are of this campaign.
+  // A file that a killed merge has left may be used again: its records are of this campaign.
   const std::string partial = merged + ".partial";
   std::vector<bool> is_merged(data_->items->count());
+  const bool was_there = is_there(partial);
   std::unique_ptr<campaigns::Store> store;
   try {
     store = std::make_unique<campaigns::Store>(partial, data_->folder.definition);
@@ -156,9 +157,8 @@ CampaignState ItemCampaign::merge() const {
       if (record.item < is_merged.size()) is_merged[record.item] = true;
     });
     store->close();
-  } catch (const campaigns::FileInUse&) {  // it may be that of another merge, where the drive has no folder locks
-    throw;
-  } catch (...) {  // such as on a full disk, which has no room for a half file
+  } catch (...) {                              // such as on a full disk, which has no room for a half file
+    if (store == nullptr && was_there) throw;  // not known to be of this campaign, or in use by another merge
     store.reset();
     std::error_code ignored;
     for (const char* end : {"", "-wal", "-journal"}) fs::remove(partial + end, ignored);

@@ -132,13 +132,16 @@ SQLite::Database open_unchanged(const std::string& path) {
   return SQLite::Database("file:" + escaped + "?immutable=1", SQLite::OPEN_READONLY | SQLite::OPEN_URI, kPatience_ms);
 }
 
-/// Whether a file could not be written for want of room: the disk is full, or a quota is.
-bool is_out_of_room(const SQLite::Exception& error) {
-  return error.getErrorCode() == SQLITE_FULL || error.getExtendedErrorCode() == SQLITE_IOERR_WRITE;
+/// Whether a file could not be written, as where the disk is full. Of a quota, and of a network drive that tells it
+/// late, SQLite says only that writing failed.
+bool has_failed_to_write(const SQLite::Exception& error) {
+  const int code = error.getExtendedErrorCode();
+  return error.getErrorCode() == SQLITE_FULL || code == SQLITE_IOERR_WRITE || code == SQLITE_IOERR_FSYNC;
 }
 
 /// Opens a file to read it, beside others that read it. What a killed process has left in the log is written into the
-/// file first; where there is no room for that, it is read from the log, and others have to wait meanwhile.
+/// file first; where that fails, it is read from the log, and other processes meanwhile take the file for one that is
+/// being written.
 SQLite::Database open_to_read(const std::string& path) {
   if (!is_there(path)) {
     throw InputError({"this results file no longer exists: another process has merged or removed it", path, 0, "", "",
@@ -151,7 +154,7 @@ SQLite::Database open_to_read(const std::string& path) {
       try {
         checkpoint_log(database);
       } catch (const SQLite::Exception& error) {
-        if (!is_out_of_room(error)) throw;
+        if (!has_failed_to_write(error)) throw;
         return database;
       }
     } catch (const SQLite::Exception& error) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "cli/command.h"
@@ -19,19 +20,19 @@ Json list_everything() {
   };
   add("scenarios", list_scenarios());
   add("effects", list_effects());
-  bool has_assets = false;
-  for (const std::string& folder : asset_folders()) {
-    json[folder] = list_assets(folder);
-    has_assets = has_assets || !json[folder].empty();
-  }
-  if (!has_assets) {
-    const std::string folder = find_assets_folder();
-    throw InputError({fmt::format("there are no assets in '{}'", folder), folder, 0, "ROLLRIG_ASSETS", folder,
-                      "a folder that has tires/*.toml, rigs/*.toml and so on; without the variable, rollrig looks "
-                      "beside the program",
-                      ""});
-  }
+  for (const std::string& folder : asset_folders()) json[folder] = list_assets(folder);
   return json;
+}
+
+/// Throws InputError where there are no assets of any kind, as where ROLLRIG_ASSETS names another folder.
+void require_assets(const Json& all) {
+  const auto has_some = [&all](const std::string& folder) { return !all.at(folder).empty(); };
+  if (std::any_of(asset_folders().begin(), asset_folders().end(), has_some)) return;
+  const std::string folder = find_assets_folder();
+  throw InputError({fmt::format("there are no assets in '{}'", folder), folder, 0, "", "",
+                    "a folder that has tires/*.toml, rigs/*.toml and so on. The variable ROLLRIG_ASSETS names it; "
+                    "where the variable is not set, rollrig looks beside the program",
+                    ""});
 }
 
 struct ListOptions {
@@ -43,8 +44,10 @@ int list_command(const ListOptions& options) {
   Json all = list_everything();
   if (!options.kind.empty()) {
     if (!all.contains(options.kind)) throw InputError(unknown_name("kind to list", options.kind, list_kinds()));
+    if (options.kind != "scenarios" && options.kind != "effects") require_assets(all);
     all = Json{{options.kind, all[options.kind]}};
   }
+  if (options.kind.empty()) require_assets(all);
   if (!options.json.empty()) write_output(options.json, to_text(all));
   if (options.json == "-") return kDone;
   for (const auto& [kind, items] : all.items()) {

@@ -175,7 +175,7 @@ std::string receive(int descriptor) {
     struct pollfd in {
       descriptor, POLLIN, 0
     };
-    if (::poll(&in, 1, kBetweenLooks_ms) == 0) continue;
+    if (::poll(&in, 1, kBetweenLooks_ms) <= 0) continue;  // nothing yet, or a signal came
     const ssize_t n = ::read(descriptor, part.data(), part.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return bytes;
@@ -219,12 +219,15 @@ Columns read_isolated(const std::string& path, const std::function<Columns(const
   ::close(ends[1]);
   std::string bytes;
   {
+    bool has_told_all = false;
     BOOST_SCOPE_EXIT_ALL(&) {
       ::close(ends[0]);
-      ::kill(child, SIGKILL);  // where it has not ended, after Ctrl-C
-      ::waitpid(child, nullptr, 0);
+      if (!has_told_all) ::kill(child, SIGKILL);
+      while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+      }
     };
     bytes = receive(ends[0]);
+    has_told_all = true;
   }
   try {
     return understand(path, Reader(std::move(bytes)));

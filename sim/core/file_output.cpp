@@ -226,8 +226,8 @@ void keep_permissions(const std::string& path, const std::string& replaced) {
   ::chmod(path.c_str(), former.st_mode & (has_owner ? 0777U : 0707U));
 }
 
-/// The permissions with which to make a file that will take the place of another. What not everybody may read of the
-/// other, this user alone may read of the new one, until keep_permissions().
+/// The permissions with which to make a file that will take the place of another. If the other is not readable by
+/// everybody, only this user may read the new one until keep_permissions().
 mode_t choose_first_permissions(const std::string& replaced) {
   struct stat former {};
   if (::lstat(replaced.c_str(), &former) != 0 || !S_ISREG(former.st_mode)) return kReadableByAll;
@@ -494,7 +494,9 @@ void OutputFolder::move_into_existing() {
     for (const std::string& name : written_) {
       const fs::path to = fs::path(place_) / name;
       fs::create_directories(to.parent_path());
-      fs::rename(fs::path(staging_) / name, to);
+      const fs::path from = fs::path(staging_) / name;
+      keep_permissions(from.string(), to.string());
+      fs::rename(from, to);
       moved.push_back(to);
       folders.insert(to.parent_path());
     }

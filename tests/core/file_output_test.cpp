@@ -89,6 +89,7 @@ TEST_CASE("nothing follows a link that was planted under the name that is writte
 
 TEST_CASE("a file that is replaced keeps its permissions, also one that is written in pieces", "[fast]") {
   const TemporaryFolder base;
+  const mode_t umask_before = ::umask(022);
   for (const unsigned mode : {0600U, 0444U}) {
     tests::write_file(base.file("file"), "old");
     fs::permissions(base.file("file"), fs::perms(mode));
@@ -102,6 +103,17 @@ TEST_CASE("a file that is replaced keeps its permissions, also one that is writt
     CHECK(mode_of(base.file("file")) == mode);
     fs::remove(base.file("file"));
   }
+  OutputFolder(base.file("out"), false).commit();
+  tests::write_file(base.file("out/a"), "old");
+  fs::permissions(base.file("out/a"), fs::perms(0600));
+  OutputFolder folder(base.file("out"), true);
+  folder.add("a", "new");
+  folder.add("b", "new");
+  folder.commit();
+  CHECK(read_text_file(base.file("out/a")) == "new");
+  CHECK(mode_of(base.file("out/a")) == 0600);
+  CHECK(mode_of(base.file("out/b")) == 0644);
+  ::umask(umask_before);
 }
 
 TEST_CASE("a link is replaced, and what it points to stays", "[fast]") {
