@@ -157,8 +157,10 @@ CampaignState ItemCampaign::merge() const {
       if (record.item < is_merged.size()) is_merged[record.item] = true;
     });
     store->close();
-  } catch (...) {                              // such as on a full disk, which has no room for a half file
-    if (store == nullptr && was_there) throw;  // not known to be of this campaign, or in use by another merge
+  } catch (...) {
+    // A file that could not be opened may be of another campaign, or in use by another merge: it stays.
+    if (store == nullptr && was_there) throw;
+    // Otherwise it goes: on a full disk, for example, it would only take room.
     store.reset();
     std::error_code ignored;
     for (const char* end : {"", "-wal", "-journal"}) fs::remove(partial + end, ignored);

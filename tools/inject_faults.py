@@ -364,17 +364,17 @@ class Faults:
             shutil.rmtree(folder)
 
     def copy_campaign(self, action, campaigns, folder):
-        """A campaign to be disturbed by a command, which is returned."""
+        """Makes a campaign in `folder`, and returns the command that changes it."""
         shutil.copytree(os.path.join(campaigns, action), os.path.join(folder, "campaign"))
         return Command("campaign " + action, ["campaign", action, "{o}/campaign", "--quiet"], [])
 
     def export_campaign(self, folder):
-        """SHA-256 of the table of a campaign."""
+        """SHA-256 of the table of a campaign; the error message where there is none."""
         status, errors = self.run(["campaign", "export", folder + "/campaign", "--csv", folder + "/all.csv", "--quiet"])
         return hash_output(folder + "/all.csv") if status == DONE else errors
 
     def check_campaign(self, fault, command, folder, items, table):
-        """Its state, then the same command again."""
+        """After a disturbance: the counts, then the same command again, and the table that it leads to."""
         status, errors = self.run(["campaign", "status", folder + "/campaign", "--json", folder + "/state.json"])
         self.check(fault, command, status == DONE, "status exits with %d: %s" % (status, errors))
         if status == DONE:
@@ -408,7 +408,7 @@ class Faults:
             for number in signals:
                 fault = "kill -9" if number == signal.SIGKILL else signal.Signals(number).name
                 folder = self.new_folder()
-                command.arguments = self.copy_campaign(action, campaigns, folder).arguments
+                self.copy_campaign(action, campaigns, folder)
                 process = self.start(command.words(folder))
                 time.sleep(self.draw_moment_s(command))
                 process.send_signal(number)

@@ -43,7 +43,7 @@ class FakeItems : public ItemList {
   mutable std::atomic<int> carried_out_{0};
 };
 
-/// As long as the object is, this process can write nothing into files, as where the disk is full.
+/// While the object exists, this process can write nothing into files, as on a full disk.
 class NoRoomForFiles {
  public:
   NoRoomForFiles() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
