@@ -109,13 +109,15 @@ Regression regress(const std::string& folder, const RegressionOptions& options) 
 }
 
 Regression update_goldens(Regression found) {
+  std::vector<StagedOutput> staged;  // all, before any takes its place: an error or Ctrl-C changes no golden
   for (RegressedRun& run : found.runs) {
     if (run.golden.empty() || run.status == "same") continue;
     throw_if_interrupted();
-    write_file_atomically(find_golden_file(found.folder, run.name), run.golden);
+    staged.emplace_back(find_golden_file(found.folder, run.name), run.golden);
     if (run.status == "no golden") run.problems.clear();  // else they say what was updated
     run.status = "updated";
   }
+  for (StagedOutput& golden : staged) golden.commit();
   make_report(found);
   return found;
 }

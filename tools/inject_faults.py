@@ -12,8 +12,10 @@ its outputs must be whole, with the bytes of the undisturbed run, or absent; the
 each of these, "campaign status" must count all items (merge) or at most all (run), and the same command, given again,
 must lead to the exported table of an undisturbed campaign.
 
-Not all commands that write are in. Left out are other kinds of "fit", "new" and "export", "campaign new-diagnoses",
-"regress --update", "serve", and rollrig_validation.
+"serve" is killed and stopped while it writes pages that are kept: each must be whole, and after SIGINT and SIGTERM its
+folder of dropped files must be gone.
+
+rollrig_validation is left out.
 
 --short takes the quick commands alone. Faults that this machine cannot have (no root for a small disk, no German
 locale) are skipped, which is said. Exit status: 1 where something was wrong.
@@ -21,31 +23,38 @@ locale) are skipped, which is said. Exit status: 1 where something was wrong.
 import argparse
 import contextlib
 import hashlib
+import http.client
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
+import urllib.error
+import urllib.request
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 EXAMPLES = os.path.join(ROOT, "assets", "examples")
-DONE, WRONG, STOPPED = 0, 2, 130
+DONE, DIFFERS, WRONG, STOPPED = 0, 1, 2, 130
 MOST_TIME_S = 600.0  # of a command
 
 
 class Command:
     """A command with its outputs, which lie in the folder {o} of its arguments."""
 
-    def __init__(self, name, arguments, outputs, quick=True, has_threads=False, refuses_again=False):
+    def __init__(self, name, arguments, outputs, quick=True, has_threads=False, refuses_again=False, inputs=None):
         self.name, self.arguments, self.outputs = name, arguments, outputs
+        self.inputs = inputs  # folder whose content is copied to {o} before each run
         self.quick, self.has_threads = quick, has_threads
         self.refuses_again = refuses_again  # if its outputs exist
         self.takes_force = arguments[0] in ("run", "sweep", "fit", "import", "new", "plan", "diagnose", "align",
                                             "compare") and not refuses_again
+        self.statuses = (DONE, WRONG) if arguments[0] != "regress" else (DONE, DIFFERS, WRONG)
         self.reference, self.takes_s = None, 0.0
 
     def words(self, folder, outputs=None, force=False):
@@ -53,6 +62,11 @@ class Command:
         for ours, theirs in (outputs or {}).items():
             words = [word.replace(folder + "/" + ours, folder + "/" + theirs) for word in words]
         return words + (["--force"] if force and self.takes_force else [])
+
+    def prepare(self, folder):
+        """Puts the files in place that the command needs in its folder."""
+        if self.inputs:
+            shutil.copytree(self.inputs, folder, dirs_exist_ok=True)
 
     def has_folder(self):
         return any("." not in output for output in self.outputs)
@@ -107,6 +121,34 @@ def make_commands(inputs):
                         "--html", "{o}/fit.html"], ["out", "fit.json", "fit.html"], quick=False, has_threads=True),
         Command("regress", ["regress", "--json", "{o}/all.json", "--html", "{o}/all.html"], ["all.json", "all.html"],
                 quick=False, has_threads=True),
+        Command("regress --update", ["regress", "{o}/runs", "--update"], ["runs/a.golden.csv", "runs/b.golden.csv"],
+                quick=False, has_threads=True, inputs=inputs + "/regression"),
+        Command("fit j2452", ["fit", "j2452", os.path.join(EXAMPLES, "j2452_points.csv"), "--out", "{o}/out", "--json",
+                              "{o}/fit.json", "--html", "{o}/fit.html", "--report", "{o}/report.html"],
+                ["out", "fit.json", "fit.html", "report.html"], quick=False, has_threads=True),
+        Command("fit j1269", ["fit", "j1269", os.path.join(EXAMPLES, "j1269_points.csv"), "--out", "{o}/out", "--json",
+                              "{o}/fit.json", "--html", "{o}/fit.html"], ["out", "fit.json", "fit.html"], quick=False,
+                has_threads=True),
+        Command("fit default-road-load", ["fit", "default-road-load", "--mass", "1500", "--width", "1.8", "--height",
+                                          "1.5", "--out", "{o}/out", "--json", "{o}/fit.json"], ["out", "fit.json"],
+                quick=False),
+        Command("new rig", ["new", "rig", "--diameter", "1.7", "--inertia", "280", "--out", "{o}/rig.toml", "--json",
+                            "{o}/new.json"], ["rig.toml", "new.json"], quick=False),
+        Command("new vehicle", ["new", "vehicle", "--mass", "1900", "--abc", "147.7", "-0.237", "0.0345", "--out",
+                                "{o}/vehicle.toml", "--json", "{o}/new.json"], ["vehicle.toml", "new.json"],
+                quick=False),
+        Command("export of a fit", ["export", inputs + "/j2452/fit.json", "--tydex", "{o}/fit.tdx", "--tir",
+                                    "{o}/fit.tir", "--tire-radius", "0.32", "--simscape", "{o}/fit.m", "--fastsim",
+                                    "{o}/fastsim.json", "--co2mpas", "{o}/co2mpas.json"],
+                ["fit.tdx", "fit.tir", "fit.m", "fastsim.json", "co2mpas.json"], quick=False),
+        Command("export --vecto", ["export", "c3_315_80r22_5", "--vecto", "{o}/tire.xml"], ["tire.xml"], quick=False),
+        Command("campaign new-diagnoses", ["campaign", "new-diagnoses", "{o}/campaign", inputs + "/sets"],
+                ["campaign"], quick=False, refuses_again=True),
+        Command("campaign summary", ["campaign", "summary", inputs + "/diagnoses", "--json", "{o}/all.json", "--html",
+                                     "{o}/all.html"], ["all.json", "all.html"], quick=False),
+        Command("campaign sensitivity", ["campaign", "sensitivity", inputs + "/draws", "--result", "drum_torque_Nm",
+                                         "--json", "{o}/all.json", "--html", "{o}/all.html"], ["all.json", "all.html"],
+                quick=False),
     ]
 
 
@@ -127,6 +169,15 @@ def hash_output(path):
     return found.hexdigest()
 
 
+def list_files(folder):
+    """Paths of all files and of empty folders below a folder, relative to it."""
+    found = []
+    for path, folders, files in os.walk(folder):
+        names = files + [name for name in folders if not os.listdir(os.path.join(path, name))]
+        found += [os.path.relpath(os.path.join(path, name), folder) for name in names]
+    return sorted(found)
+
+
 class Faults:
     def __init__(self, program, seed, base):
         self.program, self.base = os.path.abspath(program), base
@@ -134,10 +185,12 @@ class Faults:
         self.wrong, self.counts, self.skipped = [], {}, []
         self.number = 0
 
-    def new_folder(self):
+    def new_folder(self, command=None):
         self.number += 1
         folder = os.path.join(self.base, "w%d" % self.number)
         os.mkdir(folder)
+        if command:
+            command.prepare(folder)
         return folder
 
     def start(self, words, **options):
@@ -177,12 +230,15 @@ class Faults:
         known = set((outputs or {}).get(name, name) for name in command.reference)
         if command.name == "sweep" and "absent" in allowed:
             known |= {name + ".unfinished" for name in known}  # what is done, for the same command to go on with
-        others = [name for name in os.listdir(folder) if name not in known and ".partial-" not in name]
+        if command.inputs:
+            known |= set(list_files(command.inputs))
+        others = [name for name in list_files(folder) if ".partial-" not in name and
+                  not any(name == one or name.startswith(one + os.sep) for one in known)]
         self.check(fault, command, not others, "left %s" % others)
         return states
 
     def check_no_leftover(self, fault, command, folder):
-        left = [name for name in os.listdir(folder) if ".partial-" in name]
+        left = [name for name in list_files(folder) if ".partial-" in name]
         self.check(fault, command, not left, "left %s" % left)
 
     def check_repeats(self, fault, command, folder):
@@ -195,7 +251,7 @@ class Faults:
 
     def make_reference(self, command):
         for is_second in (False, True):
-            folder = self.new_folder()
+            folder = self.new_folder(command)
             start = time.time()
             status, errors = self.run(command.words(folder))
             command.takes_s = time.time() - start
@@ -215,7 +271,7 @@ class Faults:
         return max(0.0, command.takes_s * self.random.uniform(0.75, 1.1))
 
     def kill(self, command):
-        folder = self.new_folder()
+        folder = self.new_folder(command)
         process = self.start(command.words(folder))
         time.sleep(self.draw_moment_s(command))
         process.kill()
@@ -229,7 +285,7 @@ class Faults:
 
     def stop(self, command, number):
         fault = signal.Signals(number).name
-        folder = self.new_folder()
+        folder = self.new_folder(command)
         process = self.start(command.words(folder))
         time.sleep(self.draw_moment_s(command))
         process.send_signal(number)
@@ -256,16 +312,19 @@ class Faults:
             if is_mounted:
                 self.wrong.append("%s cannot be unmounted" % folder)
             else:
-                os.chmod(folder, 0o755)
+                for path, _, _ in os.walk(folder):
+                    os.chmod(path, 0o755)
                 shutil.rmtree(folder)
 
     def fill_disk(self, command):
         if os.geteuid() != 0:
             return self.skip("full disk", "not root")
-        for size_kB in (4, 16, 64, 256):
+        inputs_kB = 4 * len(list_files(command.inputs)) + 4 if command.inputs else 0  # each is smaller than a page
+        for size_kB in (4 + inputs_kB, 16 + inputs_kB, 64 + inputs_kB, 256 + inputs_kB):
             with self.mounted_folder("size=%dk" % size_kB) as (folder, is_mounted):
                 if not is_mounted:
                     return self.skip("full disk", "no tmpfs can be mounted")
+                command.prepare(folder)
                 status, errors = self.run(command.words(folder))
                 self.check("full disk", command, status in (DONE, WRONG), "exits with %d: %s" % (status, errors))
                 self.check("full disk", command, status == DONE or "cannot write" in errors, "says: %s" % errors)
@@ -273,27 +332,32 @@ class Faults:
                 self.check_no_leftover("full disk", command, folder)
 
     def lock_folder(self, command):
-        with self.mounted_folder("ro") as (folder, is_mounted):
-            if not is_mounted:
-                os.chmod(folder, 0o555)
+        with self.mounted_folder("size=4m") as (folder, is_mounted):
+            command.prepare(folder)
+            before = list_files(folder)
+            if is_mounted:
+                subprocess.check_call(["mount", "-o", "remount,ro", folder])
+            for path, _, _ in os.walk(folder):
+                if not is_mounted:
+                    os.chmod(path, 0o555)
             if os.access(folder, os.W_OK):
                 return self.skip("read-only folder", "root may write everywhere, and no tmpfs can be mounted")
             status, errors = self.run(command.words(folder))
             self.check("read-only folder", command, status == WRONG and "cannot write" in errors,
                        "exits with %d: %s" % (status, errors))
-            self.check("read-only folder", command, not os.listdir(folder), "wrote %s" % os.listdir(folder))
+            self.check("read-only folder", command, list_files(folder) == before, "wrote %s" % list_files(folder))
 
     def take_folder_away(self, command):
         fault = "vanishing folder"
-        folder = self.new_folder()
+        folder = self.new_folder(command)
         process = self.start(command.words(folder))
         time.sleep(self.draw_moment_s(command))
         shutil.rmtree(folder, ignore_errors=True)
         status, errors = self.finish(process)
-        self.check(fault, command, status in (DONE, WRONG), "exits with %d: %s" % (status, errors))
-        os.makedirs(folder, exist_ok=True)
-        shutil.rmtree(folder)
+        self.check(fault, command, status in command.statuses, "exits with %d: %s" % (status, errors))
+        shutil.rmtree(folder, ignore_errors=True)
         os.mkdir(folder)
+        command.prepare(folder)
         self.check_repeats(fault, command, folder)
         shutil.rmtree(folder)
 
@@ -301,7 +365,7 @@ class Faults:
         closed = {"preexec_fn": lambda: os.close(1), "stdout": None}
         with open("/dev/full", "w") as full:
             for fault, options in (("closed standard output", closed), ("full standard output", {"stdout": full})):
-                folder = self.new_folder()
+                folder = self.new_folder(command)
                 status, errors = self.run(command.words(folder), **options)
                 self.check(fault, command, status in (WRONG, DONE), "exits with %d: %s" % (status, errors))
                 self.check_states(fault, command, folder, ["whole"] if status == DONE else ["absent", "whole"])
@@ -311,7 +375,7 @@ class Faults:
 
     def break_pipe(self, command):
         fault = "broken pipe"
-        folder = self.new_folder()
+        folder = self.new_folder(command)
         read_end, write_end = os.pipe()
         os.close(read_end)
         status, errors = self.run(command.words(folder), stdout=write_end)
@@ -323,7 +387,7 @@ class Faults:
 
     def run_twice(self, command):
         fault = "two processes"
-        folder = self.new_folder()
+        folder = self.new_folder(command)
         processes = [self.start(command.words(folder)) for _ in range(2)]
         statuses = sorted(self.finish(process)[0] for process in processes)
         expected = [DONE, WRONG] if command.refuses_existing() else [DONE, DONE]
@@ -334,7 +398,7 @@ class Faults:
 
     def go_abroad(self, command, locales):
         fault = "German locale, other time zone"
-        folder = self.new_folder()
+        folder = self.new_folder(command)
         environment = dict(os.environ, TZ="Asia/Kathmandu", LC_ALL="de_DE.UTF-8", LANG="de_DE.UTF-8")
         if locales:
             environment["LOCPATH"] = locales
@@ -346,16 +410,18 @@ class Faults:
     def change_threads(self, command):
         fault = "number of threads"
         for threads in ("1", "2", "3"):
-            folder = self.new_folder()
+            folder = self.new_folder(command)
             status, errors = self.run(command.words(folder) + ["--threads", threads])
             self.check(fault, command, status == DONE, "exits with %d: %s" % (status, errors))
             self.check_states(fault, command, folder, ["whole"])
             shutil.rmtree(folder)
 
     def use_odd_names(self, command):
+        if command.inputs:
+            return  # its outputs have the names of its inputs
         fault = "odd names"
         for odd in ("with space", "new\nline", "größe", "<script>", "a'b\"c", "-", "%s{}"):
-            folder = self.new_folder()
+            folder = self.new_folder(command)
             names = {output: odd + " " + output for output in command.outputs}
             status, errors = self.run(command.words(folder, names))
             self.check(fault, command, status == DONE, "%r: exits with %d: %s" % (odd, status, errors))
@@ -441,6 +507,68 @@ class Faults:
                 os.remove(filler)
                 self.check_campaign(fault, command, folder, items, table)
 
+    def disturb_server(self, kills):
+        """Each time, pages are asked for and kept until the signal."""
+        command = Command("serve", ["serve", "--keep", "{o}/kept"], ["kept"])
+        met = 0
+        signals = [signal.SIGKILL] * kills + [signal.SIGINT, signal.SIGTERM]
+        for number in signals:
+            fault = "kill -9" if number == signal.SIGKILL else signal.Signals(number).name
+            folder = self.new_folder()
+            os.mkdir(folder + "/temporary")
+            process, port, token = self.start_server(command, folder)
+            timer = threading.Timer(self.random.uniform(0.0, 1.5), process.send_signal, [number])
+            timer.start()
+            kept = 0
+            while self.keep_page(port, token):
+                kept += 1
+            timer.join()
+            met += kept > 0
+            status, errors = self.finish(process)
+            self.check(fault, command, status == (-number if number == signal.SIGKILL else DONE),
+                       "exits with %d: %s" % (status, errors))
+            self.check_kept_pages(fault, command, folder, kept, may_leave_files=number == signal.SIGKILL)
+            shutil.rmtree(folder)
+        print("serve: %d of %d signals met it after it had kept a page" % (met, len(signals)))
+
+    def start_server(self, command, folder):
+        """A server, its port and its token."""
+        process = self.start(command.words(folder), stdout=subprocess.PIPE,
+                             env=dict(os.environ, TMPDIR=folder + "/temporary"))
+        for line in process.stdout:
+            address = re.search(rb"http://127\.0\.0\.1:(\d+)/\?token=([0-9a-f]+)", line)
+            if address:
+                return process, address.group(1).decode(), address.group(2).decode()
+        sys.exit("serve prints no address: %s" % self.finish(process)[1])
+
+    def check_kept_pages(self, fault, command, folder, kept, may_leave_files):
+        """After a server that said `kept` times that it kept a page."""
+        pages = os.listdir(folder + "/kept") if os.path.exists(folder + "/kept") else []
+        whole = [name for name in pages if ".partial-" not in name]
+        for name in whole:
+            with open(os.path.join(folder, "kept", name)) as file:
+                self.check(fault, command, file.read().endswith("</html>\n"), "%s is half written" % name)
+        self.check(fault, command, len(whole) >= kept, "%d pages were said to be kept, %d are there" %
+                   (kept, len(whole)))
+        if not may_leave_files:
+            self.check(fault, command, len(whole) == len(pages), "left %s" % pages)
+            left = os.listdir(folder + "/temporary")
+            self.check(fault, command, not left, "left %s" % left)
+
+    def keep_page(self, port, token):
+        """Whether the server said that it kept a page."""
+        request = urllib.request.Request("http://127.0.0.1:%s/api/keep" % port, method="POST",
+                                         data=json.dumps({"scenario": "skim", "tire": "a50"}).encode(),
+                                         headers={"Content-Type": "application/json", "X-Rollrig-Token": token})
+        try:
+            with urllib.request.urlopen(request, timeout=MOST_TIME_S) as answer:
+                return "kept" in json.load(answer)
+        except urllib.error.HTTPError as error:
+            self.wrong.append("serve: %d %s" % (error.code, error.read()[:500]))
+            return False
+        except (OSError, http.client.HTTPException, ValueError):
+            return False
+
     def skip(self, fault, why):
         if (fault, why) not in self.skipped:
             self.skipped.append((fault, why))
@@ -467,6 +595,13 @@ def main():
         faults = Faults(options.program, options.seed, base)
         inputs = os.path.join(base, "inputs")
         os.mkdir(inputs)
+        os.mkdir(inputs + "/sets")
+        shutil.copytree(EXAMPLES + "/hidden_effect", inputs + "/sets/hidden_effect")
+        os.makedirs(inputs + "/regression/runs")
+        for name, load_N in (("a", 4000), ("b", 5000)):
+            with open("%s/regression/runs/%s.toml" % (inputs, name), "w") as file:
+                file.write('format = "rollrig-run/1"\nscenario = "skim"\ntire = "a50"\n')
+                file.write('[settings]\nload_N = %d\n' % load_N)
         campaigns, loads, items = os.path.join(base, "campaigns"), "load_N=4000:6000:50", 41
         os.mkdir(campaigns)
         for words in (
@@ -477,7 +612,15 @@ def main():
                 ["campaign", "new", campaigns + "/run", "skim", "--tire", "a50", "--vary", loads, "--quiet"],
                 ["campaign", "new", campaigns + "/merge", "skim", "--tire", "a50", "--vary", loads, "--quiet"],
                 ["campaign", "run", campaigns + "/merge", "--shard", "1/2", "--quiet"],
-                ["campaign", "run", campaigns + "/merge", "--shard", "2/2", "--quiet"]):
+                ["campaign", "run", campaigns + "/merge", "--shard", "2/2", "--quiet"],
+                ["fit", "j2452", os.path.join(EXAMPLES, "j2452_points.csv"), "--maximum-load", "6570",
+                 "--base-pressure", "260", "--out", inputs + "/j2452", "--quiet"],
+                ["campaign", "new", inputs + "/draws", "skim", "--tire", "a50", "--draw", "load_N=uniform:4000:6000",
+                 "--draw", "speed_km_h=uniform:60:100", "--design", "sobol_indices", "--points", "16", "--quiet"],
+                ["campaign", "run", inputs + "/draws", "--quiet"],
+                ["campaign", "new-diagnoses", inputs + "/diagnoses", inputs + "/sets", "--only", "torque_gain",
+                 "--quiet"],
+                ["campaign", "run", inputs + "/diagnoses", "--quiet"]):
             status, errors = faults.run(words)
             if status != DONE:
                 sys.exit("%s does not even run undisturbed: exit %d\n%s" % (" ".join(words), status, errors))
@@ -490,6 +633,8 @@ def main():
             met += was_met
             whole += was_whole
         faults.disturb_campaigns(campaigns, items, max(2, options.kills // 10))
+        if not options.short:
+            faults.disturb_server(options.kills // 10)
         locales = make_locale(base)
         if locales is None:
             faults.skip("German locale", "it is not installed, and localedef cannot make it")

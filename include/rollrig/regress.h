@@ -45,7 +45,8 @@ struct RegressionOptions {
 Regression regress(const std::string& folder = "", const RegressionOptions& options = {});
 
 /// Writes the golden of each run that differs, has none or has a bad one; the run is then "updated". The tolerances of
-/// a golden that can be read stay. Each file is replaced whole; an error leaves the earlier ones updated.
+/// a golden that can be read stay. All files are written before the first takes its place: if one cannot be written, no
+/// golden changes.
 /// Example  const Regression updated = update_goldens(regress("runs"));
 /// Errors   InputError: a golden cannot be written
 Regression update_goldens(Regression found);

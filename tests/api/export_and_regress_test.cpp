@@ -106,6 +106,19 @@ TEST_CASE("a changed result is named with its key, until its golden is updated",
   CHECK(regress(folder.runs()).runs[0].status == "same");
 }
 
+TEST_CASE("where one golden cannot be written, no golden changes", "[fast]") {
+  const RegressionFolder folder;
+  folder.change_golden();
+  const std::string before = read_file(folder.golden());
+  write_file(folder.runs() + "/z_last.toml", read_file(folder.runs() + "/skim_a40.toml"));
+  const Regression changed = regress(folder.runs());
+  REQUIRE(changed.runs.size() == 2);
+  fs::create_directory(folder.runs() + "/z_last.golden.csv");
+  CHECK_THROWS_WITH(update_goldens(changed), Contains("z_last.golden.csv"));
+  CHECK(read_file(folder.golden()) == before);
+  CHECK(std::distance(fs::directory_iterator(folder.runs()), fs::directory_iterator()) == 4);  // nothing is left
+}
+
 TEST_CASE("a run that cannot be compared says why, and the others are compared", "[fast]") {
   const RegressionFolder folder;
   const std::string run = read_file(folder.runs() + "/skim_a40.toml");
