@@ -1,5 +1,5 @@
 // Opens a page of rollrig in headless Chromium and checks it. One line a finding; exit status 1 where one is bad.
-// node check_page.mjs <page.html> [--charts N] [--animation] [--section] [--equations N] [--recording FILE.csv] [--shows TEXT] [--screenshots DIR]
+// node check_page.mjs <page.html> [--charts N] [--animation] [--section] [--equations N] [--recording FILE.csv] [--shows TEXT [--texts-alone]] [--screenshots DIR]
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
@@ -384,6 +384,22 @@ async function load(file = page) {
   return chromium.evaluate(`performance.getEntriesByName('first-contentful-paint')[0]?.startTime / 1000`);
 }
 
+/// What a reader does with the page: equations, menus, tooltips, drawings, a narrow window, the dark theme, paper.
+async function checkUse() {
+  if (option('--equations')) {
+    const drawn = await chromium.evaluate(`[...document.querySelectorAll('.equation math')].filter((math) => math.getBoundingClientRect().width > 20).length`);
+    check(drawn === Number(option('--equations')), `${drawn} equations are typeset, ${option('--equations')} wanted`);
+  }
+  await checkAccess();
+  await checkSaving();
+  await checkTooltips();
+  if (args.includes('--animation')) await checkAnimation();
+  if (args.includes('--section')) await checkSection();
+  if (option('--recording')) await checkReadings(option('--recording'));
+  await checkNarrow();
+  await checkDarkAndPaper();
+}
+
 async function checkPage() {
   await chromium.open();
   let paint_s = await load();
@@ -397,18 +413,7 @@ async function checkPage() {
   await checkHarmless('the page');
   const shown = option('--shows');
   if (shown) check(await chromium.evaluate(`document.querySelector('main').textContent.includes(${JSON.stringify(shown)})`), `the page shows ${shown}`);
-  if (option('--equations')) {
-    const drawn = await chromium.evaluate(`[...document.querySelectorAll('.equation math')].filter((math) => math.getBoundingClientRect().width > 20).length`);
-    check(drawn === Number(option('--equations')), `${drawn} equations are typeset, ${option('--equations')} wanted`);
-  }
-  await checkAccess();
-  await checkSaving();
-  await checkTooltips();
-  if (args.includes('--animation')) await checkAnimation();
-  if (args.includes('--section')) await checkSection();
-  if (option('--recording')) await checkReadings(option('--recording'));
-  await checkNarrow();
-  await checkDarkAndPaper();
+  if (!args.includes('--texts-alone')) await checkUse();
   const strange = requests.filter((url) => url !== pathToFileURL(page).href);
   check(strange.length === 0, `nothing but the file itself is asked for: ${strange.join(' ')}`);
   check(messages.length === 0, `no message on the console: ${messages.join(' | ')}`);
