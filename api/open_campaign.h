@@ -18,7 +18,7 @@ struct OpenCampaign {
   campaigns::CampaignFolder folder;
 
   std::string path_of_definition() const;
-  /// All files of results. Throws InputError where there is none.
+  /// All results files. Throws InputError where there is none.
   std::vector<std::string> list_filled_files() const;
   /// Items that can be carried out. Throws InputError where rollrig or a file has changed.
   std::unique_ptr<CampaignItems> make_watched_items() const;

@@ -51,7 +51,7 @@ void UnfinishedSweep::open() {
     if (lock_->error() != 0 && error) {
       throw folder_problem(path_, fmt::format("cannot be made: {}", error.message()), "a folder that can be made");
     }
-    // Where the file system knows no locks, two processes meet at the files of results, which have their own.
+    // Where the file system knows no locks, two processes meet at the results files, which have their own.
     if (lock_->is_taken()) {
       throw folder_problem(path_, "is in use: another process runs a sweep with the same --out",
                            "to wait for it, or another --out");

@@ -182,7 +182,7 @@ struct DoneItems {
   }
 };
 
-/// All files of results but those of this division into parts. Besides the part's own file, only these can have items
+/// All results files but those of this division into parts. Besides the part's own file, only these can have items
 /// of `part`.
 std::vector<std::string> list_files_of_other_divisions(const CampaignFolder& folder, const Part& part) {
   std::set<std::string> same_division;

@@ -49,7 +49,7 @@ struct CampaignFolder {
   std::string file_of(const Part& part) const;
   /// The file of a process to which items are handed out: "results_mpi_0003_of_0010.sqlite".
   std::string file_of_worker(const Part& worker) const;
-  /// All files of results, "results.sqlite" and those of processes, by name.
+  /// All results files, "results.sqlite" and those of processes, by name.
   std::vector<std::string> list_files() const;
 };
 
@@ -89,7 +89,7 @@ struct OpenItems {
 };
 OpenItems find_open_items(const ItemList& list, const CampaignFolder& folder);
 
-/// The file of results of this process, and the file beside it that tells other processes how many items are done.
+/// The results file of this process, and the file beside it that tells other processes how many items are done.
 class ResultsFile {
  public:
   /// `is_elsewhere` says which items other files have, which are not to be counted twice: after a merge that was cut
@@ -121,7 +121,7 @@ class ResultsFile {
 Tally carry_out_items(const ItemList& list, const CampaignFolder& folder, const Part& part, int threads,
                       const std::function<void(double)>& advance = {});
 
-/// Removes the `.progress` file that a killed process left beside a file of results.
+/// Removes the `.progress` file that a killed process left beside a results file.
 void remove_progress(const std::string& results);
 
 /// What is done of all items. Files that a process writes now are counted by what it says in `<file>.progress`.

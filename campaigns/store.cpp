@@ -32,7 +32,7 @@ constexpr std::chrono::milliseconds kProbe{200};  // Assumed: another process th
 constexpr std::chrono::seconds kBetweenSyncs{1};
 
 /// Whether files of a folder can be locked. Of a drive that has no locks, SQLite says the same as of a file that
-/// another process has locked. A new file is tried: to close the file of results would give up its locks.
+/// another process has locked. A new file is tried: to close the results file would give up its locks.
 bool can_lock_in(const std::string& folder) {
   std::string name = (std::filesystem::path(folder) / ".rollrig-lock-XXXXXX").string();
   const int file = mkstemp(name.data());

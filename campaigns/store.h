@@ -12,7 +12,7 @@
 
 namespace rollrig::campaigns {
 
-/// Another process writes a file of results now.
+/// Another process writes a results file now.
 class FileInUse : public InputError {
  public:
   using InputError::InputError;

@@ -171,7 +171,7 @@ TEST_CASE("each part of a grid has all values of its last factor, also where the
   }
 }
 
-TEST_CASE("a file of results does not grow with what defines the campaign", "[fast]") {
+TEST_CASE("a results file does not grow with what defines the campaign", "[fast]") {
   const TemporaryFolder at;
   const std::string definition(1000000, 'x');
   const std::string told = rollrig::calc_sha256(definition);
