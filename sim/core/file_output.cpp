@@ -410,8 +410,12 @@ void OutputFolder::make_staging() {
   for (auto parent = missing.rbegin(); parent != missing.rend(); ++parent) {
     if (fs::create_directory(*parent)) parents_.push_back(parent->string());
   }
+  // What an empty folder of this name hides, the folder that will take its place hides from the beginning.
+  struct stat former {};
+  const bool replaces = !is_filled_in_place_ && ::stat(place_.c_str(), &former) == 0 && S_ISDIR(former.st_mode);
+  const mode_t permissions = replaces ? (former.st_mode & kFolderOfAll) | S_IRWXU : kFolderOfAll;
   staging_ = make_hidden(around, place.filename().string(), path_,
-                         [](const char* tried) { return ::mkdir(tried, kFolderOfAll); });
+                         [permissions](const char* tried) { return ::mkdir(tried, permissions); });
 }
 
 void OutputFolder::flush() {

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <limits>
 #include <thread>
+#include <vector>
 
 #include "include/rollrig/progress.h"
 #include "sim/core/error.h"
@@ -245,11 +246,18 @@ TEST_CASE("files are for all to read as the umask says, and a folder that was th
   const mode_t before = ::umask(022);
   fs::create_directory(base.file("private"));
   fs::permissions(base.file("private"), fs::perms::owner_all);
+  std::vector<unsigned> staged_modes;
   for (const char* name : {"open", "private"}) {
     OutputFolder folder(base.file(name), false);
     folder.add("a", "1");
+    folder.flush();
+    for (const auto& entry : fs::directory_iterator(base.path())) {  // the new folder, before it takes its place
+      if (entry.path().filename().string().find(".private.partial-") != 0) continue;
+      staged_modes.push_back(mode_of(entry.path()));
+    }
     folder.commit();
   }
+  CHECK(staged_modes == std::vector<unsigned>{0700});
   write_file_atomically(base.file("b"), "2");
   CHECK(mode_of(base.file("open")) == 0755);
   CHECK(mode_of(base.file("private")) == 0700);
