@@ -55,7 +55,8 @@ auto with_file(const std::string& path, const char* busy, const Use& use) {
     return use();
   } catch (const SQLite::Exception& error) {
     const int code = error.getErrorCode();
-    std::string what = fmt::format("cannot use this results file: {}", error.what());
+    const bool is_full = code == SQLITE_FULL;
+    std::string what = fmt::format("cannot {} this results file: {}", is_full ? "write" : "use", error.what());
     std::string allowed = "a file that rollrig campaign has written, in a folder that can be written to";
     if (code == SQLITE_BUSY) {
       const std::string folder = std::filesystem::path(path).parent_path().string();
@@ -68,7 +69,7 @@ auto with_file(const std::string& path, const char* busy, const Use& use) {
     if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) {
       what = "this is not a results file of a campaign, or it is damaged";
       allowed = "a file that rollrig campaign has written; without it, its items are carried out again";
-    } else if (code == SQLITE_FULL) {
+    } else if (is_full) {
       allowed = "room on the disk; what was written before is safe";
     } else if (code == SQLITE_IOERR) {
       allowed = "a disk that works, with room for your files (a quota may be full); what was written before is safe";

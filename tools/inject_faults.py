@@ -517,11 +517,18 @@ class Faults:
             folder = self.new_folder()
             os.mkdir(folder + "/temporary")
             process, port, token = self.start_server(command, folder)
-            timer = threading.Timer(self.random.uniform(0.0, 1.5), process.send_signal, [number])
+            is_signaled = threading.Event()
+
+            def send_signal():
+                is_signaled.set()
+                process.send_signal(number)
+
+            timer = threading.Timer(self.random.uniform(0.0, 1.5), send_signal)
             timer.start()
             kept = 0
             while self.keep_page(port, token):
                 kept += 1
+            self.check(fault, command, is_signaled.is_set(), "keeps no page, though it runs")
             timer.join()
             met += kept > 0
             status, errors = self.finish(process)
@@ -556,7 +563,7 @@ class Faults:
             self.check(fault, command, not left, "left %s" % left)
 
     def keep_page(self, port, token):
-        """Whether the server said that it kept a page."""
+        """Whether the server said that it kept a page. One that is about to end answers with 503."""
         request = urllib.request.Request("http://127.0.0.1:%s/api/keep" % port, method="POST",
                                          data=json.dumps({"scenario": "skim", "tire": "a50"}).encode(),
                                          headers={"Content-Type": "application/json", "X-Rollrig-Token": token})
@@ -564,7 +571,8 @@ class Faults:
             with urllib.request.urlopen(request, timeout=MOST_TIME_S) as answer:
                 return "kept" in json.load(answer)
         except urllib.error.HTTPError as error:
-            self.wrong.append("serve: %d %s" % (error.code, error.read()[:500]))
+            if error.code != 503:
+                self.wrong.append("serve: %d %s" % (error.code, error.read()[:500]))
             return False
         except (OSError, http.client.HTTPException, ValueError):
             return False
