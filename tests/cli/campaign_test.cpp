@@ -289,7 +289,7 @@ TEST_CASE("a campaign of other sources of the same version is refused", "[fast]"
 }
 
 #ifndef ROLLRIG_SANITIZED  // whose runtime must be loaded before any other library
-TEST_CASE("a drive that cannot lock files is told as one", "[fast]") {
+TEST_CASE("a drive that cannot lock files is told as one", "[slow]") {
   const TemporaryFolder at;
   run_to_end(std::string("campaign new c ") + kRun + " --vary ambient_degC=20,25", at);
   const ProgramResult result = run_program("campaign run c", at.path(), "LD_PRELOAD=" ROLLRIG_NO_LOCKS_LIBRARY);

@@ -37,7 +37,7 @@ bool is_there(const Location& location) {
 
 }  // namespace
 
-TEST_CASE("sets without a gap have a location at the family-wise rate", "[fast]") {
+TEST_CASE("sets without a gap have a location at the family-wise rate", "[slow]") {
   constexpr int kSeeds = 200;
   const tests::RepeatedBaseline baseline(tests::make_gap_set({}, 2));
   std::vector<char> located(kSeeds, 0);
@@ -48,7 +48,7 @@ TEST_CASE("sets without a gap have a location at the family-wise rate", "[fast]"
   CHECK_FALSE(tests::is_rejected(sets, kSeeds, 0.01, 0.01));
 }
 
-TEST_CASE("a force added in one phase is located there, with intervals that cover it", "[fast]") {
+TEST_CASE("a force added in one phase is located there, with intervals that cover it", "[slow]") {
   constexpr int kSeeds = 200;
   const tests::RepeatedBaseline baseline(tests::make_gap_set({}, 2));
   std::vector<std::vector<Location>> found(kSeeds);

@@ -79,7 +79,7 @@ TEST_CASE("gas that leaves only above a pressure is unknown, and no slow leak", 
   CHECK_THAT(like->text, Catch::Contains("gas that leaves at"));
 }
 
-TEST_CASE("a leak at a steady rate is a slow leak", "[fast]") {
+TEST_CASE("a leak at a steady rate is a slow leak", "[slow]") {
   const auto set = tests::measure_on_drum({tests::act("slow_leak", 4.0)}, {plan_long_steps()});
   const Compared compared(set, {"slow_leak", "cavity_volume", "pressure_record"});
   CHECK(compared.comparison.unknown_probability < 0.3);

@@ -83,7 +83,7 @@ TEST_CASE("a wind recorded with the wrong sign, frame or unit is doubted by ever
   }
 }
 
-TEST_CASE("a wind that is recorded as it blows is not doubted", "[fast]") {
+TEST_CASE("a wind that is recorded as it blows is not doubted", "[slow]") {
   const auto as_it_is = [](double w, int) { return w; };
   for (const double wind_m_s : {0.0, 1.0, 2.5}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {

@@ -200,7 +200,7 @@ TEST_CASE("headings that differ as in a storm are doubted", "[fast]") {
   CHECK_FALSE(tests::has_warning(fit_study(tests::simulate_coastdowns(study, 1)), "nobody coasts"));
 }
 
-TEST_CASE("a braked run is named beside a session that differs", "[fast]") {
+TEST_CASE("a braked run is named beside a session that differs", "[slow]") {
   tests::CoastdownStudy study;
   study.run_force_sd_N = 3.0;
   tests::CoastdownStudy other = study;
@@ -213,7 +213,7 @@ TEST_CASE("a braked run is named beside a session that differs", "[fast]") {
   CHECK(fit.doubts[0].relative == Approx(1.0 / 0.75 - 1.0).epsilon(0.2));
 }
 
-TEST_CASE("sessions of one pair are compared, by what their headings have in common", "[fast]") {
+TEST_CASE("sessions of one pair are compared, by what their headings have in common", "[slow]") {
   CHECK(tests::has_warning(fit_traces(make_sessions_of_pairs(1.1, 0.3, 1)), "the sessions differ"));
 }
 
@@ -326,7 +326,7 @@ TEST_CASE("one repeated run does not blunt the test of single pairs", "[fast]") 
   CHECK(found->p_value < 1e-6);
 }
 
-TEST_CASE("bins of three sessions that differ: the interval of A has the freedom of three sessions", "[fast]") {
+TEST_CASE("bins of three sessions that differ: the interval of A has the freedom of three sessions", "[slow]") {
   CoastdownData data;
   RandomStream random(3, "noise of bins");
   for (const auto& [session, more_N] : {std::pair("a", -15.0), std::pair("b", 15.0), std::pair("c", 40.0)}) {
@@ -348,7 +348,7 @@ TEST_CASE("bins of three sessions that differ: the interval of A has the freedom
   CHECK(fit.scatter.session_force_N.value_or(0.0) == Approx(27.5).epsilon(0.1));
 }
 
-TEST_CASE("a session of one run weighs as a session, not as all the others", "[fast]") {
+TEST_CASE("a session of one run weighs as a session, not as all the others", "[slow]") {
   tests::CoastdownStudy study;
   study.run_force_sd_N = 1.0;
   tests::CoastdownStudy high = study;

@@ -39,7 +39,7 @@ const std::string kQuestion = "exchanged?";
 
 TEST_CASE(
     "exchanged headings of one session of three are named by the default method, j1263 and wltp, and no run is odd",
-    "[fast]") {
+    "[slow]") {
   const CoastdownData data = exchange_headings(simulate_sessions({{"am", make_sloped_study(0.003, 1.0)},
                                                                   {"noon", make_sloped_study(0.003, -0.5)},
                                                                   {"night", make_sloped_study(0.003, 0.5)}}),
@@ -52,13 +52,13 @@ TEST_CASE(
   CHECK(tests::fit_checked(data).doubts.empty());
 }
 
-TEST_CASE("exchanged headings of one of two sessions: either may be it", "[fast]") {
+TEST_CASE("exchanged headings of one of two sessions: either may be it", "[slow]") {
   const CoastdownData data =
       exchange_headings(tests::join_sessions(make_sloped_study(-0.004, 0.0), make_sloped_study(-0.004, 0.0)), "pm");
   CHECK(has_warning(tests::fit_checked(data), "are the headings of one or the other exchanged?"));
 }
 
-TEST_CASE("winds that turn between sessions are no exchanged headings", "[fast]") {
+TEST_CASE("winds that turn between sessions are no exchanged headings", "[slow]") {
   for (const double slope : {0.0, 0.003}) {
     INFO(slope);
     const CoastdownData data =
@@ -71,7 +71,7 @@ TEST_CASE("winds that turn between sessions are no exchanged headings", "[fast]"
   }
 }
 
-TEST_CASE("exchanged headings are no difference of the sessions' forces", "[fast]") {
+TEST_CASE("exchanged headings are no difference of the sessions' forces", "[slow]") {
   const CoastdownData data = exchange_headings(
       simulate_sessions({{"am", make_sloped_study(0.003, 0.0)}, {"pm", make_sloped_study(0.003, 0.0)}}), "pm");
   for (const auto& [method, warnings] : tests::list_warnings_by_method(data)) {
@@ -81,7 +81,7 @@ TEST_CASE("exchanged headings are no difference of the sessions' forces", "[fast
   }
 }
 
-TEST_CASE("sessions on two roads that slope differently are not asked for their headings", "[fast]") {
+TEST_CASE("sessions on two roads that slope differently are not asked for their headings", "[slow]") {
   const CoastdownData data = tests::join_sessions(make_sloped_study(0.006, 0.0), make_sloped_study(-0.002, 0.0));
   CHECK_FALSE(has_warning(tests::fit_checked(data), kQuestion));
 }

@@ -32,7 +32,7 @@ CoastdownData simulate_like_sessions(const std::vector<std::string>& names, cons
 }  // namespace
 
 TEST_CASE("a session in mph is named with its unit by the default method, j1263 and wltp, and none of its runs is odd",
-          "[fast]") {
+          "[slow]") {
   const CoastdownStudy study = tests::make_whole_runs();
   const CoastdownData data = with_speeds_over(join_sessions(study, study), "pm", kMph);
   for (const auto& [method, warnings] : tests::list_warnings_by_method(data)) {
@@ -43,7 +43,7 @@ TEST_CASE("a session in mph is named with its unit by the default method, j1263 
   CHECK(fit_checked(data).doubts.empty());
 }
 
-TEST_CASE("two of four sessions in mph are named by the default method, j1263 and wltp", "[fast]") {
+TEST_CASE("two of four sessions in mph are named by the default method, j1263 and wltp", "[slow]") {
   CoastdownData data = simulate_like_sessions({"a", "b", "c", "d"}, tests::make_whole_runs());
   data = with_speeds_over(with_speeds_over(data, "b", kMph), "d", kMph);
   for (const auto& [method, warnings] : tests::list_warnings_by_method(data)) {
@@ -53,7 +53,7 @@ TEST_CASE("two of four sessions in mph are named by the default method, j1263 an
   }
 }
 
-TEST_CASE("one session of three in m/s is named by the default method, j1263 and wltp", "[fast]") {
+TEST_CASE("one session of three in m/s is named by the default method, j1263 and wltp", "[slow]") {
   const CoastdownData data =
       with_speeds_over(simulate_like_sessions({"a", "b", "c"}, tests::make_whole_runs()), "b", kMetersPerSecond);
   for (const auto& [method, warnings] : tests::list_warnings_by_method(data)) {
@@ -77,7 +77,7 @@ TEST_CASE("bins of a session in mph, which no reference speed has, are not dropp
   CHECK(has_warning(procedure, "if its values of v_hi_kmh and v_lo_kmh are in mph"));
 }
 
-TEST_CASE("sessions in m/s are told from the one in km/h, although they are more", "[fast]") {
+TEST_CASE("sessions in m/s are told from the one in km/h, although they are more", "[slow]") {
   CoastdownData data = simulate_like_sessions({"am", "night", "pm"}, tests::make_whole_runs());
   data = with_speeds_over(with_speeds_over(data, "pm", kMetersPerSecond), "night", kMetersPerSecond);
   const auto fit = fit_checked(data);
@@ -85,7 +85,7 @@ TEST_CASE("sessions in m/s are told from the one in km/h, although they are more
   CHECK(has_warning(fit, "are in m/s: are they?"));
 }
 
-TEST_CASE("a session in mph and one in m/s are each told from those in km/h", "[fast]") {
+TEST_CASE("a session in mph and one in m/s are each told from those in km/h", "[slow]") {
   CoastdownData data = simulate_like_sessions({"a", "b", "c", "d"}, tests::make_whole_runs());
   data = with_speeds_over(with_speeds_over(data, "b", kMph), "d", kMetersPerSecond);
   const auto fit = fit_checked(data);
@@ -93,7 +93,7 @@ TEST_CASE("a session in mph and one in m/s are each told from those in km/h", "[
   CHECK(has_warning(fit, "if its values of speed_km_h are in m/s"));
 }
 
-TEST_CASE("the parts of a split test are not asked for their unit", "[fast]") {
+TEST_CASE("the parts of a split test are not asked for their unit", "[slow]") {
   // The lower part in mph would have the speeds of the upper one, and nearly its forces.
   for (const auto& load : {models::RoadLoad<double>{116.0, 3.0, 0.3}, models::RoadLoad<double>{150.0, 5.0, 0.4},
                            models::RoadLoad<double>{120.0, 3.0, 0.35}}) {
@@ -109,7 +109,7 @@ TEST_CASE("the parts of a split test are not asked for their unit", "[fast]") {
   }
 }
 
-TEST_CASE("a session with another shape of its road load has no odd run, and no other unit", "[fast]") {
+TEST_CASE("a session with another shape of its road load has no odd run, and no other unit", "[slow]") {
   for (const double shape : {0.62, 0.9, 1.4}) {
     CoastdownStudy study;
     study.run_force_sd_N = 3.0;

@@ -199,7 +199,7 @@ TEST_CASE("each thread has the last error of its own calls", "[fast]") {
   CHECK(rollrig_last_error() == std::string());
 }
 
-TEST_CASE("a hundred thousand random calls of the C API crash nothing and leave a wheel that works", "[fast]") {
+TEST_CASE("a hundred thousand random calls of the C API crash nothing and leave a wheel that works", "[slow]") {
   const WheelPointer tire(rollrig_wheel_create("a50", "drum_2m"));
   std::mt19937 random(5);
   const auto pick = [&random](std::size_t count) { return static_cast<int>(random() % count); };

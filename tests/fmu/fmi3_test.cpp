@@ -101,7 +101,7 @@ TEST_CASE("version 3 refuses wrong calls with a message", "[fast]") {
                                                nullptr, nullptr, nullptr) == nullptr);
 }
 
-TEST_CASE("a hundred thousand random calls of version 3 crash nothing and leave a tire that works", "[fast]") {
+TEST_CASE("a hundred thousand random calls of version 3 crash nothing and leave a tire that works", "[slow]") {
   const LoadedFmu fmu("a50", "drum_2m", 3, {"slip_loss", "bearing_warmup"});
   for (const bool is_co_simulation : {true, false}) {
     Fmi3 tire(fmu, is_co_simulation);

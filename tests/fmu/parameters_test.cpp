@@ -194,7 +194,7 @@ std::vector<std::string> list_acting_effects(const std::string& tire, const std:
 
 }  // namespace
 
-TEST_CASE("each parameter of an FMU acts, whatever the tire's law", "[fast]") {
+TEST_CASE("each parameter of an FMU acts, whatever the tire's law", "[slow]") {
   const TemporaryFolder folder;
   std::set<std::string> models;
   for (const Law& law : kLaws) models.insert(law.model);
@@ -247,7 +247,7 @@ TEST_CASE("an effect that needs a table that the tire lacks is refused before an
   }
 }
 
-TEST_CASE("each parameter of an effect in an FMU acts", "[fast]") {
+TEST_CASE("each parameter of an effect in an FMU acts", "[slow]") {
   const TemporaryFolder folder;
   for (const char* rig : {"road", "drum_2m", "dyno_1m2"}) {
     for (const std::size_t law : {2u, 4u}) {

@@ -194,7 +194,7 @@ TEST_CASE("an instance is made for the FMU's own description alone", "[fast]") {
   FMI2(fmu, fmi2FreeInstance)(nullptr);
 }
 
-TEST_CASE("a hundred thousand random calls crash nothing and leave a tire that works", "[fast]") {
+TEST_CASE("a hundred thousand random calls crash nothing and leave a tire that works", "[slow]") {
   const LoadedFmu fmu("a50", "drum_2m", 2, {"slip_loss", "bearing_warmup"});
   for (const fmi2Type type : {fmi2CoSimulation, fmi2ModelExchange}) {
     Fmi2 tire(fmu, type);

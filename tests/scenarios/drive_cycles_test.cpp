@@ -133,7 +133,7 @@ TEST_CASE("a charge that equals the usable energy is doubted after a drive cycle
   CHECK(is_doubted());
 }
 
-TEST_CASE("where little moves and much starts and stops, energies close by tighter tolerances", "[fast]") {
+TEST_CASE("where little moves and much starts and stops, energies close by tighter tolerances", "[slow]") {
   const tests::TemporaryFolder folder;
   std::string jam = "time_s,speed_km_h\n0,0\n";
   for (int i = 0; i < 10; ++i) {  // from 0 to 5 km/h and back

@@ -18,7 +18,7 @@ double add_up(const Json& result, const char* key) {
 
 }  // namespace
 
-TEST_CASE("the energies of the budget are those of the result, and move as in simulations", "[fast]") {
+TEST_CASE("the energies of the budget are those of the result, and move as in simulations", "[slow]") {
   const std::vector<std::string> settings{"mid_min=5", "end_min=5"};
   const scenarios::RunSpec spec = tests::make_spec("sae_j1634", "a50", settings, "quasi_static");
   const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});

@@ -280,7 +280,7 @@ TEST_CASE("the step from load to skim does not throw the wheel off the drum", "[
   }
 }
 
-TEST_CASE("a wheel that bounces on a weak load cylinder is integrated through its jumps", "[fast]") {
+TEST_CASE("a wheel that bounces on a weak load cylinder is integrated through its jumps", "[slow]") {
   for (const int load_N : {6085, 6238, 6255, 6323, 6578, 6680, 6884}) {
     INFO(load_N);
     CHECK_NOTHROW(run("iso_28580", "a50",

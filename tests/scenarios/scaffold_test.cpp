@@ -144,7 +144,7 @@ TEST_CASE("a tire property file gives the RRc of a new tire, on the 2 m drum mor
   CHECK_THROWS_AS(scenarios::make_class_tire(request), InputError);
 }
 
-TEST_CASE("a new tire has its RRc in the simulated test of ISO 28580, in both fidelities", "[fast]") {
+TEST_CASE("a new tire has its RRc in the simulated test of ISO 28580, in both fidelities", "[slow]") {
   for (const NewTireOptions& request : list_requests()) {
     INFO(request.size);
     const ClassTire made = scenarios::make_class_tire(request);

@@ -18,7 +18,7 @@ double drum_radius_m(const GeneratedSet& made) { return 0.5 * made.set.rig->drum
 
 }  // namespace
 
-TEST_CASE("two effects act together", "[fast]") {
+TEST_CASE("two effects act together", "[slow]") {
   const GeneratedSet both =
       make_generated_set("--effect bearing_load_friction,slow_leak --size 2,1.5 --seed 21 --noise-free --nominal-base");
   const GeneratedSet friction = make_effect_set("drum", "bearing_load_friction", "2");

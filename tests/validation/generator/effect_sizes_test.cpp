@@ -215,7 +215,7 @@ TEST_CASE("where its size is said to hold, an effect is the same in both forms",
   }
 }
 
-TEST_CASE("a form changes neither the size that is drawn nor noise, campaign and tire", "[fast]") {
+TEST_CASE("a form changes neither the size that is drawn nor noise, campaign and tire", "[slow]") {
   const std::string order = "--effect windage --seed 8 --form ";
   const GeneratedSet one = make_generated_set(order + "disc_and_pump");
   const GeneratedSet other = make_generated_set(order + "power");

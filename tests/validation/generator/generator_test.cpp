@@ -57,7 +57,7 @@ std::vector<std::string> effect_names(const std::string& kind) {
 
 }  // namespace
 
-TEST_CASE("the same order gives the same set to the bit, another seed another set", "[fast]") {
+TEST_CASE("the same order gives the same set to the bit, another seed another set", "[slow]") {
   const auto first = make_files("--effect rim_heat --seed 5");
   CHECK(make_files("--effect rim_heat --seed 5") == first);
   CHECK(make_files("--effect rim_heat --seed 6") != first);
@@ -272,7 +272,7 @@ TEST_CASE("cases of three effects are drawn beside the others, which stay as the
   CHECK_THAT(refused.err, Catch::Contains("three or more --effects"));
 }
 
-TEST_CASE("size classes are thirds of what is drawn, by the distance from doing nothing", "[fast]") {
+TEST_CASE("size classes are thirds of what is drawn, by the distance from doing nothing", "[slow]") {
   const TemporaryFolder folder;
   const auto made = run_validation(
       "make --kind drum --seed 32 --singles 24 --none 0 --pairs 0 --outside 0 --effects pressure_exponent,clock_shift "

@@ -99,7 +99,7 @@ TEST_CASE("a rougher surface hides in the tire's numbers on one machine, and is 
   CHECK(in_pair > 1.5 * alone);
 }
 
-TEST_CASE("a second machine never makes an effect harder to see", "[fast]") {
+TEST_CASE("a second machine never makes an effect harder to see", "[slow]") {
   for (const char* effect : {"bearing_warmup", "speed_record"}) {
     INFO(effect);
     const PairPlan pair = find_pair(make_order(), effect);

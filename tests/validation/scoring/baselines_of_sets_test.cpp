@@ -63,7 +63,7 @@ TEST_CASE("on the baseline itself no method sees a gap", "[fast]") {
   }
 }
 
-TEST_CASE("the process shrinks a gap that repeats from run to run, and names nothing", "[fast]") {
+TEST_CASE("the process shrinks a gap that repeats from run to run, and names nothing", "[slow]") {
   measurements::MeasurementSet set = make_gap_set({}, 3);
   for (measurements::MeasuredRun& run : set.runs) {
     add_to_channel(run, "liner_temperature_degC", [](double time_s) { return 5.0 * std::sin(time_s / 400.0); });

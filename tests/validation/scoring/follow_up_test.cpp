@@ -135,7 +135,7 @@ TEST_CASE("an answer that leaves nothing open has no plan", "[fast]") {
   CHECK(validation::plan_follow_ups(made.order()).size() == 1);
 }
 
-TEST_CASE("a drawn test is one of the menu that can be made, by the seed", "[fast]") {
+TEST_CASE("a drawn test is one of the menu that can be made, by the seed", "[slow]") {
   const OpenSet made(8);
   for (const std::string& set : validation::list_cases(made.root)) made.answer(set, {});
   const auto draw = [&](std::uint64_t seed) {
