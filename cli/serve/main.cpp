@@ -23,13 +23,13 @@
 namespace rollrig::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupts = 0;
+std::atomic<int> interrupts{0};  // written by a signal handler, read by another thread
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait");
 
-/// The first asks the server to end, the second is for end_at_second_interrupt(), the third ends the process at once.
+/// The first asks the server to end, the second is for SecondInterrupt, the third ends the process at once.
 extern "C" void count_interrupt(int signal_number) {
   request_interrupt();
-  interrupts = interrupts + 1;
-  if (interrupts > 1) std::signal(signal_number, SIG_DFL);
+  if (++interrupts > 1) std::signal(signal_number, SIG_DFL);
 }
 
 /// A server may take a while to end: its diagnosis stops at its next step. At a second Ctrl-C the process ends, and the
